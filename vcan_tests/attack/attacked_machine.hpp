@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <functional>
 #include <memory>
@@ -86,7 +87,8 @@ struct Attacked : StrangerOf<VirtualMachine> {
   std::string take_up(Moment moment) {
     if (moment == Moment::kRunning) return {};
     if (moment == Moment::kHeld) {
-      if (gateway->state() == MachineState::kHeld) return gateway->carry_out(command::Resume{}) ? "" : "no resume";
+      if (gateway->state() == MachineState::kHeld)
+        return gateway->carry_out(command::Resume{}) ? "" : "no resume";
       return {};
     }
     std::string how;

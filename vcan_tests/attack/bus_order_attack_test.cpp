@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <initializer_list>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,8 +23,7 @@ constexpr std::uint32_t kToNode = cob_id::kSdoRequest + kNode;
 
 /// By SDO, up to four bytes.
 void writes(Attacked& rig, ObjectAddress address, int bytes, std::uint32_t value) {
-  rig.stranger_sends(
-      sdo::frame_of(kToNode, 0x23u | static_cast<unsigned>(4 - bytes) << 2, address, value));
+  rig.stranger_sends(sdo::frame_of(kToNode, 0x23u | static_cast<unsigned>(4 - bytes) << 2, address, value));
   rig.run_for(2ms);
 }
 /// Eight bytes, in two segments.
@@ -66,16 +65,20 @@ const std::vector<Attack>& orders() {
        },
        kOnThePath_um, true},
       {"SDO: stop for node 2 alone (2110h)",
-       [](Attacked& rig) { writes_frame(rig, {0x2110, 0}, rate_in_5ms(rig, RateCommand::Kind::kStop, 0)); },
+       [](Attacked& rig) {
+         writes_frame(rig, {0x2110, 0}, rate_in_5ms(rig, RateCommand::Kind::kStop, 0));
+       },
        kOnThePath_um, true},
       {"SDO: stamp for node 2 alone, 300 us off (2111h)",
        [](Attacked& rig) {
-         writes_frame(rig, {0x2111, 0},
-                      encode(SyncStamp{.counter = 7, .epoch = 1, .time = rig.now + 300us}));
+         writes_frame(rig, {0x2111, 0}, encode(SyncStamp{.counter = 7, .epoch = 1, .time = rig.now + 300us}));
        },
        kOnThePath_um, true},
       {"SDO: the record that node 2 waits for (2100h)",
-       [](Attacked& rig) { writes_frame(rig, {0x2100, 0}, rig.next_record()); }, kForgedRecord_um, true},
+       [](Attacked& rig) {
+         writes_frame(rig, {0x2100, 0}, rig.next_record());
+       },
+       kForgedRecord_um, true},
       {"SDO: path time (2112h), buffer cleared (60C4h:6)",
        [](Attacked& rig) {
          writes_frame(rig, {0x2112, 0}, CanFrame{.length = 8});
@@ -145,7 +148,9 @@ const std::vector<Attack>& orders() {
        kOnThePath_um, true},
       {"RPDO4: a wrong checkpoint", [](Attacked& rig) { rig.stranger_sends(rig.wrong_checkpoint()); }},
       {"SDO: a wrong checkpoint (2101h)",
-       [](Attacked& rig) { writes_frame(rig, {0x2101, 0}, rig.wrong_checkpoint()); },
+       [](Attacked& rig) {
+         writes_frame(rig, {0x2101, 0}, rig.wrong_checkpoint());
+       },
        kOnThePath_um, true},
       {"SDO: block download of a program half done (1F50h)",
        [](Attacked& rig) {
@@ -153,7 +158,9 @@ const std::vector<Attack>& orders() {
        },
        kOnThePath_um, true},
       {"SDO: block upload begun and left (1008h)",
-       [](Attacked& rig) { sends_all(rig, {"602#A00810007F000000", "602#A300000000000000"}); },
+       [](Attacked& rig) {
+         sends_all(rig, {"602#A00810007F000000", "602#A300000000000000"});
+       },
        kOnThePath_um, true},
       {"SDO: program cleared, started, stopped (1F51h)",
        [](Attacked& rig) {
@@ -173,7 +180,8 @@ const std::vector<Attack>& orders() {
                          "7E5#0400000000000000"});
        },
        kOnThePath_um, true},
-      {"LSS: bit timing, activate", [](Attacked& rig) {
+      {"LSS: bit timing, activate",
+       [](Attacked& rig) {
          sends_all(rig, {"7E5#0401000000000000", "7E5#1300040000000000", "7E5#150A000000000000"});
        },
        kOnThePath_um, true},
@@ -182,40 +190,67 @@ const std::vector<Attack>& orders() {
       {"a second node 2: its heartbeat, stopped", [](Attacked& rig) { rig.sends("702#04"); }},
       {"a second node 2: its heartbeat, operational", [](Attacked& rig) { rig.sends("702#05"); },
        kOnThePath_um, true},
-      {"a second node 2: its status, at rest",
-       [](Attacked& rig) { rig.sends("282#0064420000000000"); }},
+      {"a second node 2: its status, at rest", [](Attacked& rig) { rig.sends("282#0064420000000000"); }},
       {"a second node 2: its positions (TPDO3)", [](Attacked& rig) { rig.sends("382#0000000000000000"); },
        kOnThePath_um, true},
       {"a second node 2: answers to SDO",
-       [](Attacked& rig) { sends_all(rig, {"582#6000000000000000", "582#8000000000000008"}); },
+       [](Attacked& rig) {
+         sends_all(rig, {"582#6000000000000000", "582#8000000000000008"});
+       },
        kOnThePath_um, true},
-      {"EMCY: stop, an hour ago", [](Attacked& rig) { rig.stranger_sends(stop_request(rig.now - 3600s, StopReason::kCommand)); }},
-      {"EMCY: stop, 7 s ahead", [](Attacked& rig) { rig.stranger_sends(stop_request(rig.now + 7s, StopReason::kCommand)); }},
-      {"EMCY: stop, 900 ms ahead", [](Attacked& rig) { rig.stranger_sends(stop_request(rig.now + 900ms, StopReason::kCommand)); }},
-      {"EMCY: stop, 900 ms ago", [](Attacked& rig) { rig.stranger_sends(stop_request(rig.now - 900ms, StopReason::kCommand)); }},
-      {"EMCY: stop, 50 ms ago", [](Attacked& rig) { rig.stranger_sends(stop_request(rig.now - 50ms, StopReason::kCommand)); }},
-      {"EMCY: stop for an unknown reason", [](Attacked& rig) { rig.stranger_sends(stop_request(rig.now + 2ms, static_cast<StopReason>(77))); }},
-      {"EMCY: emergency stop input", [](Attacked& rig) { rig.stranger_sends(stop_request(rig.now + 2ms, StopReason::kEmergencyStopInput)); }},
-      {"EMCY without a stop", [](Attacked& rig) { rig.sends("082#1023010000000000"); }, kOnThePath_um, true},
-      {"rate that begins 100 ms ago", [](Attacked& rig) {
-         rig.stranger_sends(encode(RateCommand{.kind = RateCommand::Kind::kRate, .counter = 9, .rate_q15 = 1000, .full_ramp_2ms = 1,
-            .start = BusTime{(rig.now - 100ms).count() / 1000 * 1000}}));
+      {"EMCY: stop, an hour ago",
+       [](Attacked& rig) { rig.stranger_sends(stop_request(rig.now - 3600s, StopReason::kCommand)); }},
+      {"EMCY: stop, 7 s ahead",
+       [](Attacked& rig) { rig.stranger_sends(stop_request(rig.now + 7s, StopReason::kCommand)); }},
+      {"EMCY: stop, 900 ms ahead",
+       [](Attacked& rig) { rig.stranger_sends(stop_request(rig.now + 900ms, StopReason::kCommand)); }},
+      {"EMCY: stop, 900 ms ago",
+       [](Attacked& rig) { rig.stranger_sends(stop_request(rig.now - 900ms, StopReason::kCommand)); }},
+      {"EMCY: stop, 50 ms ago",
+       [](Attacked& rig) { rig.stranger_sends(stop_request(rig.now - 50ms, StopReason::kCommand)); }},
+      {"EMCY: stop for an unknown reason",
+       [](Attacked& rig) { rig.stranger_sends(stop_request(rig.now + 2ms, static_cast<StopReason>(77))); }},
+      {"EMCY: emergency stop input",
+       [](Attacked& rig) {
+         rig.stranger_sends(stop_request(rig.now + 2ms, StopReason::kEmergencyStopInput));
        }},
-      {"clear on the rate's COB-ID", [](Attacked& rig) { rig.stranger_sends(rate_in_5ms(rig, RateCommand::Kind::kClear, 0)); }},
-      {"stamp of another epoch", [](Attacked& rig) {
+      {"EMCY without a stop", [](Attacked& rig) { rig.sends("082#1023010000000000"); }, kOnThePath_um, true},
+      {"rate that begins 100 ms ago",
+       [](Attacked& rig) {
+         rig.stranger_sends(encode(RateCommand{.kind = RateCommand::Kind::kRate,
+                                               .counter = 9,
+                                               .rate_q15 = 1000,
+                                               .full_ramp_2ms = 1,
+                                               .start = BusTime{(rig.now - 100ms).count() / 1000 * 1000}}));
+       }},
+      {"clear on the rate's COB-ID",
+       [](Attacked& rig) { rig.stranger_sends(rate_in_5ms(rig, RateCommand::Kind::kClear, 0)); }},
+      {"stamp of another epoch",
+       [](Attacked& rig) {
          rig.stranger_sends(encode(SyncStamp{.counter = 7, .epoch = 9, .time = rig.now + 5s}));
        }},
-      {"SYNC without counter, of 8 bytes", [](Attacked& rig) { sends_all(rig, {"080#", "080#0102030405060708"}); }},
+      {"SYNC without counter, of 8 bytes",
+       [](Attacked& rig) {
+         sends_all(rig, {"080#", "080#0102030405060708"});
+       }},
       {"gateway's heartbeat: stopped", [](Attacked& rig) { rig.sends("77F#04"); }},
       {"a voucher with a number far ahead", [](Attacked& rig) { rig.sends("3FF#FFFF000000000000"); }},
       {"frames with 29 bits: 00000402h, 00000000h, 000001FFh",
-       [](Attacked& rig) { sends_all(rig, {"00000402#4001000000000000", "00000000#0200", "000001FF#2000000532000000"}); },
+       [](Attacked& rig) {
+         sends_all(rig, {"00000402#4001000000000000", "00000000#0200", "000001FF#2000000532000000"});
+       },
        kOnThePath_um, true},
       {"NMT of one byte, of three, an unknown command",
-       [](Attacked& rig) { sends_all(rig, {"000#02", "000#020000", "000#7700"}); }, kOnThePath_um, true},
+       [](Attacked& rig) {
+         sends_all(rig, {"000#02", "000#020000", "000#7700"});
+       },
+       kOnThePath_um, true},
       {"a record of three bytes", [](Attacked& rig) { rig.sends("402#400100"); }},
       {"node guarding of all (RTR 701h to 703h)",
-       [](Attacked& rig) { sends_all(rig, {"701#R", "702#R", "703#R1"}); }, kOnThePath_um, true},
+       [](Attacked& rig) {
+         sends_all(rig, {"701#R", "702#R", "703#R1"});
+       },
+       kOnThePath_um, true},
       {"flood of 2000 frames 000h that are no NMT",
        [](Attacked& rig) {
          for (int i = 0; i < 2000; ++i) rig.sends("000#0000000000000000");
@@ -249,18 +284,19 @@ TEST_P(BusOrderAttack, NothingMovesApartSomebodyIsNamedAndTheJobIsFinished) {
 /// While motion waits, and before a job.
 std::vector<Attack> orders_at_rest() {
   std::vector<Attack> all;
-  const auto add = [&](const char* name, std::function<void(Attacked&)> make, double most_um = kOnThePath_um) {
+  const auto add = [&](const char* name, const std::function<void(Attacked&)>& make,
+                       double most_um = kOnThePath_um) {
     for (const Moment moment : {Moment::kHeld, Moment::kReady})
       all.push_back({name, make, most_um, false, moment});
   };
   add("SDO: full rate for node 2 alone (2110h)", [](Attacked& rig) {
     writes_frame(rig, {0x2110, 0}, rate_in_5ms(rig, RateCommand::Kind::kRate, kFullRateQ15));
   });
-  add("rate 100 %", [](Attacked& rig) {
-    rig.stranger_sends(rate_in_5ms(rig, RateCommand::Kind::kRate, kFullRateQ15));
+  add("rate 100 %",
+      [](Attacked& rig) { rig.stranger_sends(rate_in_5ms(rig, RateCommand::Kind::kRate, kFullRateQ15)); });
+  add("SDO: the record that node 2 waits for (2100h)", [](Attacked& rig) {
+    writes_frame(rig, {0x2100, 0}, rig.next_record());
   });
-  add("SDO: the record that node 2 waits for (2100h)",
-      [](Attacked& rig) { writes_frame(rig, {0x2100, 0}, rig.next_record()); });
   add("the record that node 2 waits for", [](Attacked& rig) { rig.stranger_sends(rig.next_record()); });
   add("SDO: path time of node 2 (2112h)", [](Attacked& rig) {
     writes_frame(rig, {0x2112, 0}, text_frame("000#0000100000000000"));
