@@ -114,7 +114,7 @@ void Gateway::Core::on_frame(BusTime when, const CanFrame& frame) {
   }
   // Path time first: every node that heard this EMCY has begun to count.
   if (const auto request = decode_stop_request(frame, when); request && voice_.speaks()) {
-    rate_.on_stop_request(*request, now_);
+    rate_.on_stop_request({request->reason, request->axis, stop_instant(*request, when)}, now_);
     on_foreign_stop(static_cast<std::uint8_t>(frame.id - cob_id::kEmcy));
     // Heat nodes hear it, too, and do the same.
     if (request->reason == StopReason::kEmergencyStopInput) cut_heat(say("the emergency stop input"));
@@ -134,6 +134,9 @@ void Gateway::Core::on_frame(BusTime when, const CanFrame& frame) {
     ++counters_.foreign_frames;
   else
     ++counters_.malformed_frames;
+  if (useless_.are_many(now_))
+    events_.message(now_, say("another device fills the bus with frames that nobody here uses (COB-ID %1)",
+                              printed("%03Xh", static_cast<unsigned>(frame.id))));
 }
 
 /// The bus has heard it already. A record can only be wrong; an object that makes the machine unsafe is
@@ -145,7 +148,16 @@ void Gateway::Core::on_foreign_command(const ForeignFrame& foreign) {
   if (foreign.kind == ForeignFrame::Kind::kRecord) {
     events_.alarm(now_, AlarmCode::kNodeChanged, foreign.words, foreign.node);
     stop_all(false);
-  } else if (!state_.idle() && orders_.is_news(now_, foreign.order)) {
+    return;
+  }
+  using AtRest = ForeignFrame::AtRest;
+  if (foreign.at_rest == AtRest::kFreesMotors &&
+      state_.is_one_of(MachineState::kUnhomed, MachineState::kReady)) {
+    events_.alarm(now_, AlarmCode::kNodeChanged, foreign.words, foreign.node);
+    NodeWatch::Verdict verdict;
+    verdict.stop = verdict.fault = verdict.stream_lost = verdict.positions_lost = true;
+    follow(verdict);
+  } else if ((!state_.idle() || foreign.at_rest == AtRest::kIsTold) && orders_.is_news(now_, foreign.order)) {
     events_.message(now_, foreign.words);
   }
 }

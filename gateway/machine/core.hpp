@@ -274,9 +274,10 @@ class Gateway::Core {
 
   Runner* runner_ = &hand_.runner();  ///< whose motion it is
   BusTime now_{0};
-  BusTime served_{0};         ///< the last on_time()
-  BusTime started_{0};        ///< of the move under way
-  ForeignOrders orders_;      ///< of other devices in motion
+  BusTime served_{0};     ///< the last on_time()
+  BusTime started_{0};    ///< of the move under way
+  ForeignOrders orders_;  ///< of other devices in motion
+  UselessFrames useless_;
   bool remote_told_ = false;  ///< a remote frame was passed over, since the last bring-up
   bool probe_asked_ = false;  ///< its node is to answer
   bool probe_rests_ = false;  ///< its move has come to rest where it touched

@@ -22,6 +22,7 @@ void Gateway::Core::begin_bring_up() {
   motors_.bring_up_begins(now_);
   parameters_.forget();
   remote_told_ = false;
+  useless_.forget();
   fault_ = false;
   position_.forget();
   position_.stream_is_new();

@@ -26,6 +26,9 @@ struct ForeignFrame {
   std::uint8_t node = 0;    ///< whom it is for
   Sentence words{};         ///< kRecord, kOrder
   std::uint64_t order = 0;  ///< kOrder: the same for the same order
+  /// kOrder: also a machine at rest is not the same afterwards.
+  enum class AtRest : std::uint8_t { kNothing, kIsTold, kFreesMotors };
+  AtRest at_rest = AtRest::kNothing;
 };
 
 /// What a frame is that this gateway has not sent. `links`: the machine's nodes.
@@ -41,6 +44,22 @@ class ForeignOrders {
 
   std::array<std::uint64_t, 6> told_{};
   std::size_t count_ = 0;
+  BusTime since_{-std::chrono::hours{1}};
+};
+
+/// Frames that nobody here uses. So many of them take the bus from those that are needed.
+class UselessFrames {
+ public:
+  /// One more. True once, until forget().
+  bool are_many(BusTime now);
+  void forget() { told_ = false; }
+
+ private:
+  static constexpr BusTime kPeriod = std::chrono::seconds{1};
+  static constexpr int kMany = 200;
+
+  int count_ = 0;
+  bool told_ = false;
   BusTime since_{-std::chrono::hours{1}};
 };
 

@@ -1585,6 +1585,14 @@
         <translation>گره %1 که در پروندهٔ ماشین نیامده، از همه خواست بایستند</translation>
     </message>
     <message>
+        <source>another device speaks LSS, which gives nodes their ids (COB-ID %1)</source>
+        <translation>دستگاهی دیگر با LSS سخن می‌گوید که به گره‌ها شناسه می‌دهد (COB-ID %1)</translation>
+    </message>
+    <message>
+        <source>another device fills the bus with frames that nobody here uses (COB-ID %1)</source>
+        <translation>دستگاهی دیگر گذرگاه را با قاب‌هایی پر می‌کند که اینجا کسی به کار نمی‌برد (COB-ID %1)</translation>
+    </message>
+    <message>
         <source>another device sends remote frames (COB-ID %1): nobody answers them</source>
         <translation>دستگاهی دیگر قاب‌های درخواست (remote) می‌فرستد (COB-ID %1): کسی پاسخ نمی‌دهد</translation>
     </message>

@@ -1585,6 +1585,14 @@
         <translation>makine dosyasında adı geçmeyen düğüm %1 herkesin durmasını istedi</translation>
     </message>
     <message>
+        <source>another device speaks LSS, which gives nodes their ids (COB-ID %1)</source>
+        <translation>başka bir aygıt, düğümlere kimlik veren LSS ile konuşuyor (COB-ID %1)</translation>
+    </message>
+    <message>
+        <source>another device fills the bus with frames that nobody here uses (COB-ID %1)</source>
+        <translation>başka bir aygıt veri yolunu burada kimsenin kullanmadığı çerçevelerle dolduruyor (COB-ID %1)</translation>
+    </message>
+    <message>
         <source>another device sends remote frames (COB-ID %1): nobody answers them</source>
         <translation>başka bir aygıt uzak çerçeveler gönderiyor (COB-ID %1): kimse yanıtlamaz</translation>
     </message>

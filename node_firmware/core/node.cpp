@@ -131,7 +131,7 @@ void Node::on_frame(LocalTime at, const CanFrame& frame) {
   if (sync.is_sync) {
     if (!sync.length_error) path_.on_sync(sync.counter, at);
     on_sync(sync);
-  } else if (!options_.id_from_board && lss_.on_frame(frame)) {
+  } else if (!options_.id_from_board && !in_motion() && lss_.on_frame(frame)) {
     on_lss();
   } else if (const auto command = nmt_.on_frame(frame)) {
     on_nmt(*command);
@@ -144,11 +144,21 @@ void Node::on_frame(LocalTime at, const CanFrame& frame) {
   serve();
 }
 
+// What all nodes of a gateway hear at once, told to one of them alone, would move its carriages apart from
+// the others'.
+bool Node::parts_from_others(const CanFrame& frame) const {
+  if (frame.id != cob_id::kSdoRequest + node_id_ || !path_.clock().synchronised()) return false;
+  const ObjectAddress address = sdo::address_in(frame);
+  return sdo::begins_to_write(frame) && (address == object::kRateCommand || address == object::kSyncStamp ||
+                                         address == object::kSegmentRecord || address == object::kCheckpoint);
+}
+
 bool Node::obeys(const CanFrame& frame) {
-  const auto answer = session_.judge(frame, node_id_, in_motion());
-  if (answer == SessionGuard::Answer::kObey) return true;
+  auto answer = session_.judge(frame, node_id_, in_motion());
+  if (answer == SessionGuard::Answer::kObey && parts_from_others(frame))
+    answer = SessionGuard::Answer::kRefuse;
   if (answer == SessionGuard::Answer::kRefuse && nmt_.allows_sdo()) sdo_.refuse(frame);
-  return false;
+  return answer == SessionGuard::Answer::kObey;
 }
 
 void Node::on_sync(const SyncReception& sync) {

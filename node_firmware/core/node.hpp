@@ -254,6 +254,7 @@ class Node : private ObjectOwner {
   void apply_parameters();
   void apply_node_id();
   void on_nmt(NmtCommand command);
+  bool parts_from_others(const CanFrame& frame) const;
   /// false: the session's check value is missing, or it is a voucher itself.
   bool obeys(const CanFrame& frame);
   void on_sync(const SyncReception& sync);

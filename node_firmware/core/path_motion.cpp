@@ -84,10 +84,7 @@ void PathMotion::on_peer_emcy(const CanFrame& frame, LocalTime now) {
   const BusTime bus_now = clock_.to_bus(now);
   const auto request = decode_stop_request(frame, bus_now);
   if (!request) return;
-  // A node without bus time names nonsense: then now is the best there is.
-  constexpr BusTime kPlausible = std::chrono::seconds{1};
-  const BusTime distance = request->start > bus_now ? request->start - bus_now : bus_now - request->start;
-  const BusTime start = clock_.synchronised() && distance < kPlausible ? request->start : bus_now;
+  const BusTime start = clock_.synchronised() ? stop_instant(*request, bus_now) : bus_now;
   const auto outcome = path_.stop_at(start, options_.stop_ramp_2ms, bus_now);
   count_late(outcome, counters_.late_stops);
   if (outcome != PathClock::Outcome::kDuplicate) ++counters_.stops;

@@ -93,7 +93,7 @@ void HeatNode::on_frame(LocalTime at, const CanFrame& frame) {
       frame, cob_id::kSync, static_cast<std::uint8_t>(value(heat_slot_of(object::kSyncCounterOverflow))));
   if (sync.is_sync) {
     on_sync(sync);
-  } else if (!options_.id_from_board && lss_.on_frame(frame)) {
+  } else if (!options_.id_from_board && !any_heat() && lss_.on_frame(frame)) {
     on_lss();
   } else if (const auto stop = decode_stop_request(frame, BusTime{0});
              stop && stop->reason == StopReason::kEmergencyStopInput) {

@@ -162,6 +162,17 @@ struct StopRequest {
   friend constexpr bool operator==(const StopRequest&, const StopRequest&) = default;
 };
 
+/// When the stop begins that was heard of at `heard`. No node names an instant that is farther ahead; who
+/// does is no node, or has no bus time: then now is the best there is, in whole milliseconds, so that all who
+/// heard the frame take the same.
+constexpr BusTime stop_instant(const StopRequest& request, BusTime heard) {
+  constexpr BusTime kFarthestAhead = std::chrono::milliseconds{10}, kOldest = std::chrono::seconds{1};
+  const BusTime ahead = request.start - heard;
+  if (ahead <= kFarthestAhead && ahead > -kOldest) return request.start;
+  constexpr std::int64_t kMillisecond = 1'000'000;
+  return BusTime{(heard + kStopMargin).count() / kMillisecond * kMillisecond};
+}
+
 /// The five vendor bytes of EMCY.
 constexpr std::array<std::uint8_t, 5> encode(const StopRequest& s) {
   std::array<std::uint8_t, 5> bytes{};

@@ -100,12 +100,23 @@ TEST(Stranger, AMotorThatIsMadeFreeAtRestIsNoLongerReady) {
   rig.run_for(1s);
   rig.stranger_sends(text_frame("202#00000F000000"));
   ASSERT_TRUE(rig.reach(MachineState::kAlarm, 2s)) << rig.story();
-  EXPECT_TRUE(rig.says("node 2: the drive of axis 1 was switched off")) << rig.story();
+  EXPECT_TRUE(rig.says("another device has sent node 2 a controlword")) << rig.story();
   EXPECT_FALSE(rig.gateway->status().positions_known);
   ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
   ASSERT_TRUE(rig.reach(MachineState::kUnhomed, 5s)) << rig.story();
   ASSERT_TRUE(rig.gateway->carry_out(command::Home{}));
   ASSERT_TRUE(rig.reach(MachineState::kReady, 120s)) << rig.story();
+}
+
+// Nobody was heard to do it: the statusword alone tells.
+TEST(Stranger, AStatuswordAtRestOfADriveWithoutPowerIsNoLongerReady) {
+  Stranger rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  rig.run_for(1s);
+  rig.stranger_sends(text_frame("182#50023702070700"));
+  ASSERT_TRUE(rig.reach(MachineState::kAlarm, 2s)) << rig.story();
+  EXPECT_TRUE(rig.says("node 2: the drive of axis 1 was switched off")) << rig.story();
+  EXPECT_FALSE(rig.gateway->status().positions_known);
 }
 
 TEST(Stranger, AMoveOfAnotherMasterAtRestIsSeenAndStoppedAndPositionsAreReadAgain) {

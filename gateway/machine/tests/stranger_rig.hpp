@@ -95,7 +95,7 @@ void lose_record_and_resume(StrangerOf<Machine>& rig, int times) {
   using namespace std::chrono_literals;
   ASSERT_TRUE(rig.make_ready()) << rig.story();
   std::mt19937 random(12);
-  for (int i = 0; i < times; ++i) {
+  for (int i = 0; i < times;) {
     rig.lose_from_gateway = {};
     if (rig.gateway->state() == MachineState::kReady) {
       ASSERT_TRUE(rig.begin()) << i << rig.story();
@@ -107,7 +107,7 @@ void lose_record_and_resume(StrangerOf<Machine>& rig, int times) {
       return frame.id == cob_id::rpdo(3, node) && !std::exchange(lost, true);
     };
     rig.run_until([&] { return !rig.gateway->may(command::kind<command::Hold>); }, 60s);
-    if (rig.gateway->state() == MachineState::kReady) continue;  // the job had ended
+    if (rig.gateway->state() == MachineState::kReady) continue;  // the job had ended: nothing was lost
     ASSERT_TRUE(rig.reach(MachineState::kStopped, 10s)) << i << rig.story();
     ASSERT_TRUE(rig.gateway->carry_out(command::Clear{})) << i;
     ASSERT_TRUE(rig.reach(MachineState::kHeld, 5s)) << i << rig.story();
@@ -115,7 +115,7 @@ void lose_record_and_resume(StrangerOf<Machine>& rig, int times) {
     ASSERT_TRUE(rig.reach(MachineState::kRunning, 30s)) << i << rig.story();
     ASSERT_FALSE(rig.told_code(node_emcy::kCheckpoint)) << i << rig.story();
     rig.events.clear();
-    tell_rounds("lost record and resume", i + 1);
+    tell_rounds("lost record and resume", ++i);
   }
 }
 

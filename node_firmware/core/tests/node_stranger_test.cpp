@@ -132,6 +132,24 @@ TEST_F(StrangerTest, AnOverdueRpdoIsToldAtOnceAndIsOverWhenItComes) {
   EXPECT_EQ(bench.read(kMine, 0x1001, 0), 0);
 }
 
+TEST_F(StrangerTest, LssIsNotHeardInMotion) {
+  move();
+  for (const char* frame : {"7E5#0401000000000000", "7E5#1109000000000000", "7E5#0400000000000000"})
+    bench.send(frame);
+  bench.run(3s);
+  EXPECT_FALSE(bench.was_seen(0x7E4));
+  ASSERT_FALSE(moves());
+  bench.send("000#8201");
+  bench.run(50ms);
+  EXPECT_EQ(bench.node().node_id(), kMine);
+}
+
+// Rates, stamps and records are for all nodes of a gateway, at rest, too: motion that waits begins by them.
+TEST_F(StreamTest, NoSdoTellsOneNodeAloneWhatAllHear) {
+  for (const std::uint16_t index : std::initializer_list<std::uint16_t>{0x2100, 0x2101, 0x2110, 0x2111})
+    EXPECT_EQ(bench.try_write(2, index, 0, 4, 0), kRefusedInMotion) << std::hex << index;
+}
+
 TEST_F(StreamTest, WhoHasTheAnswerToABufferClearReadsWhereTheAxesStay) {
   // At rest in the midst of a segment: no whole count.
   for (int i = 0; i < 20; ++i) {

@@ -1,6 +1,7 @@
 // A heat node in a session: what it does of what nobody vouches for.
 
 #include "node_firmware/heat/tests/heat_node_bench.hpp"
+#include "protocol/can/candump.hpp"
 #include "protocol/canopen/alarm_codes.hpp"
 #include "protocol/motion/voucher.hpp"
 
@@ -103,6 +104,16 @@ TEST_F(HeatSession, WhileItHeatsNobodyElseWritesNorCommandsAndEachIsToldOnce) {
   EXPECT_NE(bench.node.heater_output(0), 0u);
   EXPECT_EQ(refused(), 11);
   EXPECT_EQ(bench.emergencies(node_emcy::kNotVouched).size(), 11u) << "6 by SDO, RPDO1, 4 by NMT";
+}
+
+TEST_F(HeatSession, LssIsNotHeardWhileItHeats) {
+  heat();
+  for (const char* frame : {"7E5#0401000000000000", "7E5#1109000000000000", "7E5#1700000000000000"})
+    bench.send(parse_frame(frame).value());
+  run(0.5);
+  EXPECT_FALSE(bench.node.take_reset_request());
+  EXPECT_TRUE(bench.node.image_to_store().empty());
+  EXPECT_NE(bench.node.heater_output(0), 0u);
 }
 
 TEST_F(HeatSession, RecordedOrdersAreRefusedAlsoWithTheirVouchers) {
