@@ -21,11 +21,9 @@ namespace {
 /// So long after the daemon or the bus is found missing it is looked for again.
 constexpr unsigned kAgainMs = 3000;
 
-}  // namespace
-
 /// All but the constructor and the destructor runs on avahi's thread.
-struct Announcer::Avahi {
-  explicit Avahi(Options given) : options(std::move(given)) {
+struct Avahi {
+  explicit Avahi(Announcer::Options given) : options(std::move(given)) {
     options.name = shown(options.name, AVAHI_LABEL_MAX - 1);
     poll = avahi_threaded_poll_new();
     if (poll == nullptr) return;
@@ -100,9 +98,9 @@ struct Announcer::Avahi {
   int add(const char* type, std::initializer_list<std::string> texts) {
     AvahiStringList* list = nullptr;
     for (const std::string& text : texts) list = avahi_string_list_add(list, text.c_str());
-    const int error = avahi_entry_group_add_service_strlst(
-        group, AVAHI_IF_UNSPEC, AVAHI_PROTO_UNSPEC, AvahiPublishFlags{}, options.name.c_str(), type, nullptr,
-        nullptr, options.port, list);
+    const int error = avahi_entry_group_add_service_strlst(group, AVAHI_IF_UNSPEC, AVAHI_PROTO_UNSPEC,
+                                                           AvahiPublishFlags{}, options.name.c_str(), type,
+                                                           nullptr, nullptr, options.port, list);
     avahi_string_list_free(list);
     return error;
   }
@@ -110,11 +108,13 @@ struct Announcer::Avahi {
   /// All services under one name.
   int add_all() {
     // Cura's plug-in asks for "useHttps"; OctoPrint itself tells of path, version and the version of its API.
-    if (const int error = add("_octoprint._tcp", {"path=/", "version=" + options.octoprint, "api=0.1", "useHttps=true"});
+    if (const int error =
+            add("_octoprint._tcp", {"path=/", "version=" + options.octoprint, "api=0.1", "useHttps=true"});
         error != 0)
       return error;
     if (const int error = add("_prusalink._tcp", {"path=/"}); error != 0) return error;
-    if (const int error = add("_kinebus._tcp", {"path=/kinebus/v1", "version=" + options.version}); error != 0)
+    if (const int error = add("_kinebus._tcp", {"path=/kinebus/v1", "version=" + options.version});
+        error != 0)
       return error;
     return add("_https._tcp", {"path=/"});
   }
@@ -133,7 +133,7 @@ struct Announcer::Avahi {
     if (error != 0) connect_again(avahi_strerror(error));
   }
 
-  Options options;
+  Announcer::Options options;
   AvahiThreadedPoll* poll = nullptr;
   const AvahiPoll* api = nullptr;
   AvahiTimeout* again = nullptr;
@@ -143,10 +143,12 @@ struct Announcer::Avahi {
   bool missed = false;  ///< and said so
 };
 
+}  // namespace
+
 bool Announcer::built_in() {
   return true;
 }
-Announcer::Announcer(Options options) : avahi_(std::make_unique<Avahi>(std::move(options))) {}
+Announcer::Announcer(Options options) : avahi_(std::make_shared<Avahi>(std::move(options))) {}
 Announcer::~Announcer() = default;
 
 }  // namespace kinebus

@@ -12,10 +12,10 @@ namespace kinebus {
 class Announcer {
  public:
   struct Options {
-    std::string name;          ///< of the machine; one that is taken gets a number
-    std::uint16_t port = 0;    ///< by TLS
-    std::string octoprint{};   ///< the version of OctoPrint whose API is served
-    std::string version{};     ///< of this program
+    std::string name;         ///< of the machine; one that is taken gets a number
+    std::uint16_t port = 0;   ///< by TLS
+    std::string octoprint{};  ///< the version of OctoPrint whose API is served
+    std::string version{};    ///< of this program
   };
   /// False: this program was built without avahi, and nothing is announced.
   static bool built_in();
@@ -27,8 +27,7 @@ class Announcer {
   Announcer& operator=(const Announcer&) = delete;
 
  private:
-  struct Avahi;
-  std::unique_ptr<Avahi> avahi_;
+  std::shared_ptr<void> avahi_;  ///< the thread and what is announced
 };
 
 }  // namespace kinebus

@@ -4,8 +4,6 @@
 
 namespace kinebus {
 
-struct Announcer::Avahi {};
-
 bool Announcer::built_in() {
   return false;
 }

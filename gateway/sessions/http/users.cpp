@@ -141,8 +141,8 @@ Result<Users, std::string> Users::read(std::string key, std::string_view toml) {
       const toml::table& table = *node.as_table();
       const auto text = [&](const char* word) { return table[word].value_or(std::string()); };
       const bool is_user = name == "user";
-      if (std::string wrong = is_user ? keys_wrong(table, {"name", "role", "key"})
-                                      : keys_wrong(table, {"network", "role"});
+      if (std::string wrong =
+              is_user ? keys_wrong(table, {"name", "role", "key"}) : keys_wrong(table, {"network", "role"});
           !wrong.empty())
         return Wrong(std::move(wrong));
       const auto role = role_in(table);

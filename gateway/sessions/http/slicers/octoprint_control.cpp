@@ -71,9 +71,9 @@ void jog(Session& session, const Json& asked) {
     double at;
     void (joblink::Pose::*set)(double);
   };
-  for (const Axis& axis : {Axis{"x", from.x_mm(), &joblink::Pose::set_x_mm},
-                           Axis{"y", from.y_mm(), &joblink::Pose::set_y_mm},
-                           Axis{"z", from.z_mm(), &joblink::Pose::set_z_mm}}) {
+  for (const Axis& axis :
+       {Axis{"x", from.x_mm(), &joblink::Pose::set_x_mm}, Axis{"y", from.y_mm(), &joblink::Pose::set_y_mm},
+        Axis{"z", from.z_mm(), &joblink::Pose::set_z_mm}}) {
     if (!asked.contains(axis.name)) continue;
     const auto value = number_in(asked, axis.name, 0);
     if (!value) return session.refuse(400, "x, y and z are numbers, in mm");
@@ -203,7 +203,8 @@ void connection_command(Session& session, std::string_view body) {
     return command(session, message);
   }
   if (what == "disconnect")
-    return session.refuse(409, "the gateway keeps its bus: a machine that nobody listens to would not be safe");
+    return session.refuse(409,
+                          "the gateway keeps its bus: a machine that nobody listens to would not be safe");
   session.refuse(400, "the commands of the connection are: connect, disconnect");
 }
 

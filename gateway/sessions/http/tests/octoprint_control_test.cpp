@@ -98,10 +98,12 @@ TEST_F(OctoPrintControl, WhatIsWrongIsSaidAndNothingMoves) {
 }
 
 TEST_F(OctoPrintControl, APartOfAFileIsAPart) {
-  const std::string put = HttpRig::head("PUT", "/api/v1/files/local/a%20b.gcode") + "Content-Type: text/x.gcode\r\n";
+  const std::string put =
+      HttpRig::head("PUT", "/api/v1/files/local/a%20b.gcode") + "Content-Type: text/x.gcode\r\n";
   ASSERT_EQ(rig.ask(put + HttpRig::with_body("0123456789")).status, 201);
   const auto part = [&](const std::string& range) {
-    return rig.ask(HttpRig::head("GET", "/downloads/files/local/a%20b.gcode") + "Range: " + range + "\r\n\r\n");
+    return rig.ask(HttpRig::head("GET", "/downloads/files/local/a%20b.gcode") + "Range: " + range +
+                   "\r\n\r\n");
   };
   const std::pair<const char*, const char*> parts[] = {{"bytes=0-0", "0"},
                                                        {"bytes=2-5", "2345"},

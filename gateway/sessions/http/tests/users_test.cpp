@@ -44,7 +44,8 @@ TEST(Users, AreReadWithTheirRoles) {
   EXPECT_EQ(users->role_at("10.0.0.255"), Role::kOperate);
   EXPECT_EQ(users->role_at("::ffff:10.0.0.1"), Role::kOperate);
   EXPECT_EQ(users->role_at("fd00:7:ffff::1"), Role::kWatch);
-  for (const char* stranger : {"10.0.1.0", "9.255.255.255", "fd00:8::1", "", "local", "10.0.0.1 ", "010.0.0.1"})
+  for (const char* stranger :
+       {"10.0.1.0", "9.255.255.255", "fd00:8::1", "", "local", "10.0.0.1 ", "010.0.0.1"})
     EXPECT_EQ(users->role_at(stranger), Role::kNobody) << stranger;
 }
 
@@ -144,7 +145,8 @@ TEST(Roles, ATrustedNetworkNeedsNoKey) {
   const std::string head = "GET /api/printer HTTP/1.1\r\nHost: 127.0.0.1:5000\r\n";
   EXPECT_EQ(rig.ask(head + "Origin: http://elsewhere\r\n\r\n").status, 403);
   // Nor is a link on one followed, where a GET commands; old browsers do not say where it was.
-  const std::string script = "GET /printer/gcode/script?script=M140%20S40 HTTP/1.1\r\nHost: 127.0.0.1:5000\r\n";
+  const std::string script =
+      "GET /printer/gcode/script?script=M140%20S40 HTTP/1.1\r\nHost: 127.0.0.1:5000\r\n";
   EXPECT_EQ(rig.ask(script + "Sec-Fetch-Site: cross-site\r\nSec-Fetch-Mode: navigate\r\n\r\n").status, 400);
   EXPECT_EQ(rig.ask(script + "User-Agent: Mozilla/5.0\r\n\r\n").status, 400);
   const Response scripted = rig.ask(script + "User-Agent: axios/1.8\r\n\r\n");
@@ -166,8 +168,9 @@ TEST(Roles, AWebsocketHasThoseOfItsHello) {
 
   rig.address = "10.0.0.9";
   SocketClient trusted(rig, "/kinebus/v1/socket", "");
-  EXPECT_EQ(trusted.say(R"({"request_id":1,"hello":{"version_major":2}})").at(0).json()["reply"]["hello"]["role"],
-            "operate");
+  EXPECT_EQ(
+      trusted.say(R"({"request_id":1,"hello":{"version_major":2}})").at(0).json()["reply"]["hello"]["role"],
+      "operate");
 }
 
 TEST(Roles, TheClientsOfAUserBearItsName) {
