@@ -6,6 +6,7 @@ import { Files } from './files.js';
 import { Heaters } from './heaters.js';
 import { Job } from './job.js';
 import { Motion } from './motion.js';
+import { load_said, said, said_problem } from './said.js';
 import { Pictures } from './pictures.js';
 
 const at = (id) => document.getElementById(id);
@@ -17,7 +18,7 @@ let role = '';
 
 /// Why something was refused stands on the page until something else is done.
 function tell(problem) {
-  const words = problem ? [problem.rule, problem.expected].filter(Boolean).join(' — ') : '';
+  const words = problem ? said_problem(problem) : '';
   at('problem').textContent = words;
   at('problem').hidden = !words;
 }
@@ -41,7 +42,7 @@ function show_state() {
   const words = t(status.state);
   if (at('state').textContent !== words) at('state').textContent = words;
   at('state').dataset.state = kKind[status.state] ?? 'work';
-  at('doing').textContent = status.doing;
+  at('doing').textContent = said(status.doing_said, status.doing);
   document.title = `${words} – ${machine?.name ?? 'Kinebus'}`;
 }
 function show_position() {
@@ -97,7 +98,7 @@ function connect(key) {
   link.addEventListener('refused', (event) => {
     link.close();
     localStorage.removeItem('key');
-    ask_for_key(event.detail.code !== 'ERROR_NOT_ALLOWED' ? event.detail.rule : key ? t('wrong_key') : '');
+    ask_for_key(event.detail.code !== 'ERROR_NOT_ALLOWED' ? said_problem(event.detail) : key ? t('wrong_key') : '');
   });
   link.addEventListener('closed', () => link.wanted && tell({ rule: t('link_lost') }));
   link.addEventListener('status', (event) => show(event.detail));
@@ -126,8 +127,9 @@ at('stop').onclick = async () => {
   }
 };
 at('theme').onclick = () => set_theme(document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark');
-at('language').onchange = (event) => {
+at('language').onchange = async (event) => {
   choose_language(event.target.value);
+  await load_said();
   for (const panel of all) panel.say?.();
   if (status) show(status);
 };
@@ -144,4 +146,5 @@ at('language').value = present_language();
 // http://ADDRESS/#key=...: a link that lets in; the key does not stay in the address.
 const given = new URLSearchParams(location.hash.slice(1)).get('key');
 if (given) history.replaceState(null, '', location.pathname);
+await load_said();
 connect(given ?? localStorage.getItem('key') ?? '');

@@ -1,4 +1,6 @@
 // Lines to the machine, and what it says.
+import { said } from './said.js';
+
 const at = (id) => document.getElementById(id);
 const kMost = 300;
 
@@ -28,8 +30,9 @@ export class Console {
   }
 
   hear(event) {
-    if (event.kind === 'EVENT_ALARM') this.#add(`${event.words} ${event.advice}`, 'bad');
-    else if (event.words) this.#add(event.line ? `${event.line}: ${event.words}` : event.words);
+    const words = said(event.said, event.words);
+    if (event.kind === 'EVENT_ALARM') this.#add(`${words} ${said(event.advice_said, event.advice)}`, 'bad');
+    else if (words) this.#add(event.line ? `${event.line}: ${words}` : words);
   }
 
   #add(words, kind = '') {

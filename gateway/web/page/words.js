@@ -1,4 +1,4 @@
-// The page's words in its languages. What the gateway itself says (reasons, events) is English.
+// The page's words in its languages. What the gateway itself says (reasons, events) is said.js's.
 const kWords = {
   en: {
     language: 'Language', theme: 'Light or dark', stop: 'EMERGENCY STOP', stop_title: 'Stops all motion and switches all heaters off',
@@ -54,7 +54,8 @@ const known = (language) => (language in kWords ? language : 'en');
 let language = known(localStorage.getItem('language') ?? navigator.language.slice(0, 2));
 
 export const t = (word, ...parts) => parts.reduce((text, part, i) => text.replace(`%${i + 1}`, part), kWords[language][word] ?? kWords.en[word] ?? word);
-export const number = (value, digits = 0) => value.toLocaleString(language, { minimumFractionDigits: digits, maximumFractionDigits: digits });
+/// No "-0.00".
+export const number = (value, digits = 0) => (Number(value.toFixed(digits)) || 0).toLocaleString(language, { minimumFractionDigits: digits, maximumFractionDigits: digits });
 export const percent = (share, digits = 0) => share.toLocaleString(language, { style: 'percent', minimumFractionDigits: digits, maximumFractionDigits: digits });
 export const date = (unix_s) => new Date(unix_s * 1000).toLocaleString(language, { dateStyle: 'short', timeStyle: 'short' });
 export const present_language = () => language;

@@ -157,6 +157,8 @@ async function main() {
     for (const [language, theme] of [['en', 'light'], ['en', 'dark'], ['tr', 'light'], ['fa', 'dark']]) {
       await page.selectOption('#language', language);
       if ((await page.evaluate(() => document.documentElement.dataset.theme)) !== theme) await page.click('#theme');
+      const script = { en: /^[\x20-\x7E]+$/, tr: /^hareket ediyor$/, fa: /[\u0600-\u06FF]/ }[language];
+      await until(`the gateway's words are ${language}`, async () => script.test(await text('doing')));
       for (const [name, width, height] of [['telephone', 390, 844], ['desktop', 1440, 1000], ['4k', 3840, 2160]]) {
         if (name === '4k' && language !== 'en') continue;
         await page.setViewportSize({ width, height });
