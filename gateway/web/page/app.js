@@ -1,6 +1,7 @@
 // The page as a whole: the link, who is let in, and what the panels show.
 import { Link } from './link.js';
 import { choose_language, number, present_language, say_all, t } from './words.js';
+import { Bus } from './bus.js';
 import { Console } from './console.js';
 import { Files } from './files.js';
 import { Heaters } from './heaters.js';
@@ -34,7 +35,7 @@ async function ask(name, fields) {
 
 const panels = { ask, tell, link: () => link, pictures: new Pictures(() => link), job: (name) => files.job(name) };
 const files = new Files(panels);
-const all = [new Job(panels), new Heaters(panels), new Motion(panels), files, new Console(panels)];
+const all = [new Job(panels), new Heaters(panels), new Motion(panels), files, new Bus(), new Console(panels)];
 
 const kKind = { STATE_READY: 'good', STATE_HELD: 'work', STATE_STOPPING: 'bad', STATE_STOPPED: 'bad', STATE_ALARM: 'bad', STATE_OFF: 'none', STATE_UNHOMED: 'none' };
 function show_state() {

@@ -16,9 +16,9 @@ export class Console {
       at('line').value = '';
       this.#said.push(line);
       this.#back = this.#said.length;
-      this.#add(`> ${line}`, 'said');
+      this.#add(`> ${line}`, 'said', 'en');
       const reply = await panels.ask('console', { line });
-      if (reply?.console?.text) this.#add(reply.console.text);
+      if (reply?.console?.text) this.#add(reply.console.text, '', 'en');
     };
     at('line').onkeydown = (event) => {
       const step = { ArrowUp: -1, ArrowDown: 1 }[event.key];
@@ -35,12 +35,15 @@ export class Console {
     else if (words) this.#add(event.line ? `${event.line}: ${words}` : words);
   }
 
-  #add(words, kind = '') {
+  /// `language`: '': the page's.
+  #add(words, kind = '', language = '') {
     const log = at('log');
     const ends = log.scrollTop + log.clientHeight >= log.scrollHeight - 4;
     const line = document.createElement('p');
     line.textContent = words;
     line.className = kind;
+    line.dir = 'auto';
+    if (language) line.lang = language;
     log.append(line);
     while (log.children.length > kMost) log.firstChild.remove();
     if (ends) log.scrollTop = log.scrollHeight;

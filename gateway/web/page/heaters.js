@@ -1,29 +1,24 @@
 // Temperatures: their course of the last ten minutes, and what they shall be.
-import uPlot from './vendor/uPlot.esm.js';
+import { Course } from './course.js';
 import { number, t } from './words.js';
 
 const at = (id) => document.getElementById(id);
-const kSeconds = 600;
-const kColours = ['#d9480f', '#1971c2', '#2f9e44', '#9c36b5', '#e67700', '#0c8599'];
+/// degrees C
+const kLowest = 50;
 
 export class Heaters {
-  #times = [];
-  #values = [];
   #rows = [];
-  #plot = null;
+  #course = new Course(at('graph'), kLowest);
 
   constructor({ ask }) {
     this.ask = ask;
-    new ResizeObserver(() => this.#plot?.setSize(this.#size())).observe(at('graph'));
   }
 
   begin(machine) {
     this.heaters = machine.heaters;
     this.materials = machine.materials ?? [];
-    this.#times = [];
-    this.#values = machine.heaters.map(() => []);
+    this.#course.begin(machine.heaters.map((heater) => heater.name));
     this.say();
-    this.recolour();
   }
 
   say() {
@@ -71,24 +66,8 @@ export class Heaters {
     return button;
   }
 
-  #size() {
-    return { width: Math.max(at('graph').clientWidth, 120), height: 180 };
-  }
-
   recolour() {
-    if (!this.heaters) return;
-    this.#plot?.destroy();
-    const style = getComputedStyle(document.documentElement);
-    const text = style.getPropertyValue('--soft'), line = style.getPropertyValue('--line');
-    const axis = { stroke: text, grid: { stroke: line, width: 1 }, ticks: { stroke: line } };
-    this.#plot = new uPlot({
-      ...this.#size(),
-      legend: { show: false },
-      cursor: { show: false },
-      axes: [axis, { ...axis, size: 40 }],
-      scales: { y: { range: (plot, min, max) => [0, Math.max(max ?? 0, 50) * 1.1] } },
-      series: [{}, ...this.heaters.map((heater, i) => ({ label: heater.name, stroke: kColours[i % kColours.length], width: 2, points: { show: false } }))],
-    }, [this.#times, ...this.#values], at('graph'));
+    this.#course.recolour();
   }
 
   show(status) {
@@ -97,14 +76,6 @@ export class Heaters {
     this.#rows.forEach((row, i) => {
       if (found[i]) row.now.textContent = `${number(found[i].actual_celsius, 1)} / ${number(found[i].target_celsius)} °C`;
     });
-    const now = Math.floor(Date.now() / 1000);
-    if (this.#times.at(-1) === now) return;
-    this.#times.push(now);
-    this.#values.forEach((values, i) => values.push(found[i]?.actual_celsius ?? null));
-    while (this.#times[0] < now - kSeconds) {
-      this.#times.shift();
-      for (const values of this.#values) values.shift();
-    }
-    this.#plot?.setData([this.#times, ...this.#values]);
+    this.#course.add(found.map((heater) => heater?.actual_celsius));
   }
 }

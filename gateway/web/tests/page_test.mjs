@@ -152,6 +152,10 @@ async function main() {
     await page.click('#resume');
     await state('running');
 
+    const nodes = await page.locator('#nodes tr').allInnerTexts();
+    claim(nodes.length === 3 && nodes.every((words) => words.includes('operational')), `the nodes are there: ${nodes}`);
+    claim(/^Load \d+\.\d%, at most \d+\.\d%$/.test(await text('bus-load')), `the bus has a load: ${await text('bus-load')}`);
+
     // The page's policy lets no script in but its own: this one comes by the debugger.
     await page.evaluate(fs.readFileSync(axe, 'utf8'));
     for (const [language, theme] of [['en', 'light'], ['en', 'dark'], ['tr', 'light'], ['fa', 'dark']]) {
