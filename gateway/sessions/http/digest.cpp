@@ -39,14 +39,15 @@ Digest::Verdict Digest::look(const Head& head, const Users& users, LocalTime now
       of("uri") != head.target || count.size() != 8 || read.ec != std::errc() ||
       read.ptr != count.data() + count.size())
     return {.shown = Shown::kWrong};
-  const std::string request = md5(head.method + ":" + head.target);
+  std::string rest = ":" + of("nonce");
+  rest.append(":").append(count).append(":").append(of("cnonce")).append(":auth:");
+  rest += md5(head.method + ":" + head.target);
+  const std::string named = of("username") + ":" + kRealm + ":", response = of("response");
   const User* who = nullptr;
-  for (const User& user : users.all()) {
-    const std::string secret = md5(of("username") + ":" + kRealm + ":" + user.key);
-    if (same_key(md5(secret + ":" + of("nonce") + ":" + count + ":" + of("cnonce") + ":auth:" + request),
-                 of("response")))
+  for (const User& user : users.all())
+    if (std::string proof = md5(std::string(named).append(user.key));
+        same_key(md5(proof.append(rest)), response))
       who = &user;
-  }
   if (who == nullptr) return {.shown = Shown::kWrong};
   const auto nonce = std::find_if(nonces_.begin(), nonces_.end(),
                                   [text = of("nonce")](const Nonce& one) { return one.text == text; });

@@ -192,8 +192,8 @@ void Session::recognise() {
   // A link on another server's page commands nothing, wherever its reader sits.
   const bool page_is_open = head().method == "GET" && may_be_of_other_page(head());
   const Role here = page_is_open ? std::min(of_network_, Role::kWatch) : of_network_;
-  const bool by_network = verdict.user == nullptr || verdict.user->role < here;
-  become(by_network ? Visitor{.role = here} : Visitor(*verdict.user));
+  const bool by_network = verdict.user == nullptr || verdict.user->visitor.role < here;
+  become(by_network ? Visitor{.role = here} : verdict.user->visitor);
 }
 
 bool Session::of_prusalink() const {

@@ -58,23 +58,67 @@ std::string place(const toml::node& node) {
   return "line " + std::to_string(node.source().begin.line) + ": ";
 }
 
-/// Why `table` has other keys than these, all of them texts; empty: it has them.
+/// Why `table` has not just these keys, all of them texts; empty: it has.
 std::string keys_wrong(const toml::table& table, std::initializer_list<const char*> keys) {
-  for (const auto& [key, value] : table)
-    if (std::none_of(keys.begin(), keys.end(), [&](const char* known) { return key.str() == known; })) {
-      std::string expected;
-      for (const char* known : keys) expected += (expected.empty() ? "" : ", ") + std::string(known);
-      return place(value) + "there is no key '" + std::string(key.str()) + "' here (" + expected + ")";
-    }
+  for (const auto& entry : table) {
+    const std::string_view name = entry.first.str();
+    if (std::any_of(keys.begin(), keys.end(), [&](const char* known) { return name == known; })) continue;
+    std::string expected;
+    for (const char* known : keys) expected.append(expected.empty() ? "" : ", ").append(known);
+    return "there is no key '" + std::string(name) + "' here (" + expected + ")";
+  }
   for (const char* key : keys)
-    if (!table[key].is_string()) return place(table) + "'" + key + "' is missing, or no text";
+    if (!table[key].is_string()) return std::string("'") + key + "' is missing, or no text";
   return {};
 }
 
-Result<Role, std::string> role_in(const toml::table& table) {
-  const std::string word = table["role"].value_or(std::string());
-  if (const auto role = role_of(word)) return *role;
-  return Wrong(place(table) + "there is no role '" + word + "' (watch, operate, administer)");
+std::string no_role(const std::string& word) {
+  return "there is no role '" + word + "' (watch, operate, administer)";
+}
+
+std::string text_of(const toml::table& table, const char* key) {
+  return table[key].value_or(std::string());
+}
+
+/// Why not; empty: added.
+std::string add_user(const toml::table& table, std::vector<User>& users) {
+  if (std::string wrong = keys_wrong(table, {"name", "role", "key"}); !wrong.empty()) return wrong;
+  const std::string word = text_of(table, "role");
+  const auto role = role_of(word);
+  if (!role) return no_role(word);
+  User user{.visitor = {text_of(table, "name"), *role}, .key = text_of(table, "key")};
+  const std::string& name = user.visitor.name;
+  if (name.empty()) return "a user has a name";
+  if (user.key.size() < Users::kShortestKey)
+    return "the key of '" + name +
+           "' is too short (16 characters or more, such as of 'openssl rand -hex 16')";
+  for (const User& other : users)
+    if (other.key == user.key || other.visitor.name == name)
+      return "'" + name + "' has the name or the key of another";
+  users.push_back(std::move(user));
+  return {};
+}
+
+/// The same.
+std::string add_network(const toml::table& table, std::vector<TrustedNetwork>& networks) {
+  if (std::string wrong = keys_wrong(table, {"network", "role"}); !wrong.empty()) return wrong;
+  const std::string word = text_of(table, "role"), text = text_of(table, "network");
+  const auto role = role_of(word);
+  if (!role) return no_role(word);
+  const std::string_view network = text;
+  const std::size_t slash = std::min(network.find('/'), network.size());
+  const std::string_view digits = network.substr(std::min(slash + 1, network.size()));
+  const auto address = address_of(network.substr(0, slash));
+  unsigned bits = 0;
+  const auto number = std::from_chars(digits.data(), digits.data() + digits.size(), bits);
+  const bool reads = address && !digits.empty() && number.ec == std::errc() &&
+                     number.ptr == digits.data() + digits.size() && bits <= (address->is_v4 ? 32U : 128U);
+  if (!reads) return "'" + text + "' is no network (such as 192.168.1.0/24 or fd00::/8)";
+  if (bits < (address->is_v4 ? kFewestBits4 : kFewestBits6))
+    return "'" + text + "' is too wide to be trusted (/8 or narrower)";
+  if (*role == Role::kAdminister) return "who administers shows a key (watch, operate)";
+  networks.push_back({address->bytes, bits + (address->is_v4 ? kMappedBits : 0U), *role});
+  return {};
 }
 
 }  // namespace
@@ -121,7 +165,7 @@ Role role_for(const joblink::ClientMessage& message) {
   }
 }
 
-Users::Users(std::string key) : users_{{{.role = Role::kAdminister}, std::move(key)}} {}
+Users::Users(std::string key) : users_{{.visitor = {.role = Role::kAdminister}, .key = std::move(key)}} {}
 
 Result<Users, std::string> Users::read(std::string key, std::string_view toml) {
   const toml::parse_result parsed = toml::parse(toml);
@@ -129,52 +173,18 @@ Result<Users, std::string> Users::read(std::string key, std::string_view toml) {
     return Wrong("line " + std::to_string(parsed.error().source().begin.line) + ": " +
                  std::string(parsed.error().description()));
   Users users(std::move(key));
-  for (const auto& [name, value] : parsed.table()) {
+  for (const auto& entry : parsed.table()) {
+    const std::string name(entry.first.str());
     if (name != "user" && name != "trusted")
-      return Wrong(place(value) + "there is no '" + std::string(name.str()) +
-                   "' in such a file ([[user]], [[trusted]])");
-    const toml::array* list = value.as_array();
+      return Wrong(place(entry.second) + "there is no '" + name + "' in such a file ([[user]], [[trusted]])");
+    const toml::array* list = entry.second.as_array();
     if (list == nullptr || !list->is_homogeneous<toml::table>())
-      return Wrong(place(value) + "expected [[" + std::string(name.str()) + "]]");
-    if (list->size() > kMost) return Wrong(place(value) + "at most 100 of a kind");
+      return Wrong(place(entry.second) + "expected [[" + name + "]]");
+    if (list->size() > kMost) return Wrong(place(entry.second) + "at most 100 of a kind");
     for (const toml::node& node : *list) {
-      const toml::table& table = *node.as_table();
-      const auto text = [&](const char* word) { return table[word].value_or(std::string()); };
-      const bool is_user = name == "user";
-      if (std::string wrong =
-              is_user ? keys_wrong(table, {"name", "role", "key"}) : keys_wrong(table, {"network", "role"});
-          !wrong.empty())
-        return Wrong(std::move(wrong));
-      const auto role = role_in(table);
-      if (!role) return Wrong(role.error());
-      if (is_user) {
-        User user{{text("name"), *role}, text("key")};
-        if (user.name.empty()) return Wrong(place(table) + "a user has a name");
-        if (user.key.size() < kShortestKey)
-          return Wrong(place(table) + "the key of '" + user.name +
-                       "' is too short (16 characters or more, such as of 'openssl rand -hex 16')");
-        for (const User& other : users.users_)
-          if (other.key == user.key || other.name == user.name)
-            return Wrong(place(table) + "'" + user.name + "' has the name or the key of another");
-        users.users_.push_back(std::move(user));
-        continue;
-      }
-      const std::string network = text("network");
-      const std::size_t slash = std::min(network.find('/'), network.size());
-      const auto address = address_of(std::string_view(network).substr(0, slash));
-      unsigned bits = 0;
-      const char* const end = network.data() + network.size();
-      const char* const begin = std::min(network.data() + slash + 1, end);
-      const auto number = std::from_chars(begin, end, bits);
-      const bool reads = address && begin != end && number.ec == std::errc() && number.ptr == end &&
-                         bits <= (address->is_v4 ? 32U : 128U);
-      if (!reads)
-        return Wrong(place(table) + "'" + network + "' is no network (such as 192.168.1.0/24 or fd00::/8)");
-      if (bits < (address->is_v4 ? kFewestBits4 : kFewestBits6))
-        return Wrong(place(table) + "'" + network + "' is too wide to be trusted (/8 or narrower)");
-      if (*role == Role::kAdminister)
-        return Wrong(place(table) + "who administers shows a key (watch, operate)");
-      users.networks_.push_back({address->bytes, bits + (address->is_v4 ? kMappedBits : 0U), *role});
+      std::string wrong = name == "user" ? add_user(*node.as_table(), users.users_)
+                                         : add_network(*node.as_table(), users.networks_);
+      if (!wrong.empty()) return Wrong(place(node) + wrong);
     }
   }
   return users;
@@ -191,7 +201,7 @@ Role Users::role_at(std::string_view address) const {
   const auto from = address_of(address);
   Role role = Role::kNobody;
   if (!from) return role;
-  for (const Network& network : networks_)
+  for (const TrustedNetwork& network : networks_)
     if (is_in(from->bytes, network.address, network.bits)) role = std::max(role, network.role);
   return role;
 }

@@ -28,8 +28,15 @@ struct Visitor {
   std::string name{};  ///< empty: the holder of the gateway's key, or a client of a trusted network
   Role role = Role::kNobody;
 };
-struct User : Visitor {
+struct User {
+  Visitor visitor{};
   std::string key{};
+};
+
+struct TrustedNetwork {
+  std::array<std::uint8_t, 16> address{};  ///< of IPv6, or mapped into it
+  unsigned bits = 0;
+  Role role = Role::kNobody;
 };
 
 class Users {
@@ -50,13 +57,8 @@ class Users {
   Role role_at(std::string_view address) const;
 
  private:
-  struct Network {
-    std::array<std::uint8_t, 16> address;  ///< of IPv6, or mapped into it
-    unsigned bits;
-    Role role;
-  };
   std::vector<User> users_;
-  std::vector<Network> networks_;
+  std::vector<TrustedNetwork> networks_;
 };
 
 }  // namespace kinebus::http

@@ -68,7 +68,7 @@ class KinebusDialect : public Dialect {
                              say("the token that is set on the gateway")));
       return socket_.end(CloseCode::kPolicy, "the key is wrong");
     }
-    socket_.let_in(user != nullptr ? *user : socket_.visitor(), hello.client_name());
+    socket_.let_in(user != nullptr ? user->visitor : socket_.visitor(), hello.client_name());
     ClientMessage ask;
     ask.mutable_get_machine();
     Reply answer;

@@ -112,7 +112,7 @@ class MoonrakerDialect : public Dialect {
   bool identify(const std::string& name, const std::string& key) {
     const User* const user = socket_.server().users().by_key(key);
     if (!socket_.is_in() && user == nullptr) return false;
-    socket_.let_in(user != nullptr ? *user : socket_.visitor(), name);
+    socket_.let_in(user != nullptr ? user->visitor : socket_.visitor(), name);
     return true;
   }
 

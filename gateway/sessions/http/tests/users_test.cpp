@@ -35,9 +35,9 @@ TEST(Users, AreReadWithTheirRoles) {
   const auto users = Users::read(kKey, kFile);
   ASSERT_TRUE(users) << users.error();
   ASSERT_NE(users->by_key(kKey), nullptr);
-  EXPECT_EQ(users->by_key(kKey)->role, Role::kAdminister);
-  EXPECT_EQ(users->by_key(kWatchKey)->role, Role::kWatch);
-  EXPECT_EQ(users->by_key(kOperateKey)->name, "anna");
+  EXPECT_EQ(users->by_key(kKey)->visitor.role, Role::kAdminister);
+  EXPECT_EQ(users->by_key(kWatchKey)->visitor.role, Role::kWatch);
+  EXPECT_EQ(users->by_key(kOperateKey)->visitor.name, "anna");
   for (const char* key : {"", "0123456789abcdeF", "a-key-that-watches "})
     EXPECT_EQ(users->by_key(key), nullptr) << key;
 
@@ -57,7 +57,7 @@ TEST(Users, WhatIsWrongWithAFileIsNamed) {
       {"[user]\nname=\"a\"", "expected [[user]]"},
       {"user = [1]", "expected [[user]]"},
       {"key = \"0123456789abcdefg\"", "there is no 'key'"},
-      {user + "colour=\"red\"", "line 5: there is no key 'colour' here (name, role, key)"},
+      {user + "colour=\"red\"", "line 1: there is no key 'colour' here (name, role, key)"},
       {"[[user]]\nname=\"a\"\nrole=\"watch\"", "'key' is missing"},
       {"[[user]]\nname=\"a\"\nrole=1\nkey=\"0123456789abcdefg\"", "'role' is missing, or no text"},
       {"[[user]]\nname=\"a\"\nrole=\"root\"\nkey=\"0123456789abcdefg\"", "there is no role 'root'"},
