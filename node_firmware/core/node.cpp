@@ -131,8 +131,8 @@ void Node::on_frame(LocalTime at, const CanFrame& frame) {
   if (sync.is_sync) {
     if (!sync.length_error) path_.on_sync(sync.counter, at);
     on_sync(sync);
-  } else if (!options_.id_from_board && !in_motion() && lss_.on_frame(frame)) {
-    on_lss();
+  } else if (frame.id == cob_id::kLssRequest) {
+    if (!options_.id_from_board && !in_motion() && lss_.on_frame(frame)) on_lss();
   } else if (const auto command = nmt_.on_frame(frame)) {
     on_nmt(*command);
   } else if (nmt_.state() != NmtState::kInitialising) {
