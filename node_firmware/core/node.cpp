@@ -154,7 +154,7 @@ bool Node::parts_from_others(const CanFrame& frame) const {
 }
 
 bool Node::obeys(const CanFrame& frame) {
-  auto answer = session_.judge(frame, node_id_, in_motion());
+  auto answer = session_.judge(frame, node_id_, session_.has_key() && in_motion());
   if (answer == SessionGuard::Answer::kObey && parts_from_others(frame))
     answer = SessionGuard::Answer::kRefuse;
   if (answer == SessionGuard::Answer::kRefuse && nmt_.allows_sdo()) sdo_.refuse(frame);

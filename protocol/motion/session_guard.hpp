@@ -31,6 +31,8 @@ class SessionGuard {
 
   /// `in_motion`: of this node or of what it shares the path with.
   Answer judge(const CanFrame& frame, std::uint8_t node_id, bool in_motion);
+  /// False: judge() asks nobody for a voucher, and it is all the same whether anything moves.
+  bool has_key() const { return vouchers_.in_force(); }
   /// What was refused, for EMCY: each order once a motion, up to kToldOfAKind of a kind. Bytes 1, 2: its
   /// COB-ID; 3, 4: NMT's command and node, or SDO's index. COB-ID 080h, SYNC's: what nobody vouched for was
   /// obeyed while the session had lapsed; 3, 4: its COB-ID.
