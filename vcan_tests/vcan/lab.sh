@@ -50,6 +50,8 @@ until_true() {
 say() { echo "--- $*"; }
 ask() { "$bin/kinebus" "$@" > "$work/ask.log" 2>&1 || fail "kinebus $*: $(tail -n 1 "$work/ask.log")"; }
 # logged COUNT WORDS: the daemon's log has them so often.
+# What the daemon says when the job moves again; its answer to clear already speaks of going on.
+goes_on="the job [^ ]* goes on"
 count_of() { grep -c -- "$1" "$log" || true; }
 logged() { (( $(count_of "$2") >= $1 )); }
 # expect SECONDS WORDS BEFORE: the words come once more than BEFORE times.
