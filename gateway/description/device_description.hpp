@@ -110,6 +110,15 @@ struct MaterialDescription {
   friend bool operator==(const MaterialDescription&, const MaterialDescription&) = default;
 };
 
+/// [camera.NAME]: what looks at the machine; another program sends its pictures. Addresses as
+/// is_camera_address() has them.
+struct CameraDescription {
+  std::string name;      ///< of its table
+  std::string stream;    ///< MJPEG
+  std::string snapshot;  ///< one picture; empty: has none
+  friend bool operator==(const CameraDescription&, const CameraDescription&) = default;
+};
+
 /// Its limits, and the heat model that the simulated one uses.
 struct HeaterDescription {
   std::string name;  ///< of its table

@@ -7,6 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "gateway/description/camera_address.hpp"
+
 namespace kinebus {
 namespace {
 
@@ -50,6 +52,7 @@ class DeviceRules {
       if (h.place.on_node()) wiring(h, key);
     }
     for (const MaterialDescription& m : d_.materials) material(m);
+    for (const CameraDescription& c : d_.cameras) camera(c);
     indices("fan", d_.fans);
     indices("output", d_.outputs);
     indices("input", d_.inputs, Channels::kInputs);
@@ -95,6 +98,15 @@ class DeviceRules {
     within(HeaterKind::kHotend, "hotend_c", m.hotend_c);
     within(HeaterKind::kBed, "bed_c", m.bed_c);
     within(HeaterKind::kChamber, "chamber_c", m.chamber_c);
+  }
+
+  void camera(const CameraDescription& c) {
+    const auto address = [&](const char* key, const std::string& text) {
+      require(is_camera_address(text), {"camera." + c.name + "." + key}, Sentence::verbatim("'" + text + "'"),
+              say("an address http://HOST/PATH, https://HOST/PATH or, on this computer, :PORT/PATH"));
+    };
+    address("stream", c.stream);
+    if (!c.snapshot.empty()) address("snapshot", c.snapshot);
   }
 
   enum class Channels : std::uint8_t { kHeaters, kSensors, kOutputs, kInputs, kFilaments };

@@ -164,6 +164,10 @@ void visit_devices(V& v, MachineDescription& d) {
     v.number("bed_c", m.bed_c, {0, 600}, Need::kOptional);
     v.number("chamber_c", m.chamber_c, {0, 600}, Need::kOptional);
   });
+  v.named_tables("camera", d.cameras, [&](CameraDescription& c) {
+    v.text("stream", c.stream, Need::kRequired);
+    v.text("snapshot", c.snapshot, Need::kOptional);
+  });
   v.named_tables("fan", d.fans, [&](FanDescription& f) { visit_device(v, f); });
   v.named_tables("output", d.outputs, [&](OutputDescription& o) { visit_device(v, o); });
   v.named_tables("input", d.inputs, [&](InputDescription& i) { visit_device(v, i); });

@@ -328,6 +328,7 @@ struct MachineDescription {
   // Devices, each in the order of its name.
   std::vector<HeaterDescription> heaters;
   std::vector<MaterialDescription> materials;
+  std::vector<CameraDescription> cameras;
   std::vector<FanDescription> fans;
   std::vector<OutputDescription> outputs;
   std::vector<InputDescription> inputs;

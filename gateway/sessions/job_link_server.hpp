@@ -97,6 +97,7 @@ class JobLinkServer {
   void request(LocalTime now, Requester& by, const Asker& asker, const joblink::ClientMessage& message);
   const EventLog& events() const { return events_; }
   const Options& options() const { return options_; }
+  const joblink::MachineInfo& machine() const { return machine_info_; }
 
  private:
   friend class JobLinkSession;

@@ -4692,6 +4692,10 @@
         <source>%1 was never measured: a heater or sensor that has slipped half out of its hole may stay unseen. Measure it: tune, or M303</source>
         <translation>%1 هرگز اندازه‌گیری نشده است: گرم‌کن یا حسگری که نیمه از جای خود بیرون آمده شاید دیده نشود. آن را اندازه بگیرید: تنظیم، یا M303</translation>
     </message>
+    <message>
+        <source>an address http://HOST/PATH, https://HOST/PATH or, on this computer, :PORT/PATH</source>
+        <translation>نشانی: http://HOST/PATH، https://HOST/PATH یا روی همین رایانه :PORT/PATH</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>

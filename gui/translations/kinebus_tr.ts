@@ -4692,6 +4692,10 @@
         <source>%1 was never measured: a heater or sensor that has slipped half out of its hole may stay unseen. Measure it: tune, or M303</source>
         <translation>%1 hiç ölçülmedi: yuvasından yarı çıkmış bir ısıtıcı ya da algılayıcı fark edilmeyebilir. Ölçün: ayarla, ya da M303</translation>
     </message>
+    <message>
+        <source>an address http://HOST/PATH, https://HOST/PATH or, on this computer, :PORT/PATH</source>
+        <translation>bir adres: http://MAKİNE/YOL, https://MAKİNE/YOL ya da bu bilgisayarda :KAPI/YOL</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>

@@ -205,6 +205,10 @@ TEST(MachineFile, ADeviceWhereNoneCanBeIsRefused) {
        "material.x.bed_c: found 130; expected at most max_c of [heater.bed], 120"},
       {"axis_pairs = 0\nheaters = 2", "where = \"simulated\"\n[material.x]\nchamber_c = 50",
        "material.x.chamber_c: found 50; expected 0, or a heater of this kind"},
+      {"", "where = \"simulated\"\n[camera.x]\nstream = \"/dev/video0\"",
+       "camera.x.stream: found '/dev/video0'; expected an address http://HOST/PATH, https://HOST/PATH or, on "
+       "this "
+       "computer, :PORT/PATH"},
       {"axis_pairs = 0\nfilament_sensors = 3",
        "where = \"simulated\"\n[filament_sensor.x]\nkind = \"switch\"\nwhere = \"node\"\nnode = 4\nchannel = "
        "1",

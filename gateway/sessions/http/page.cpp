@@ -2,17 +2,24 @@
 // page asks for the key.
 
 #include <array>
+#include <string>
 
+#include "gateway/description/camera_address.hpp"
 #include "gateway/sessions/http/http_session.hpp"
 #include "gateway/sessions/http/routes.hpp"
 
 namespace kinebus::http {
 namespace {
 
-/// The page is one origin's own: no foreign scripts, in no foreign frame.
-constexpr const char* kPolicy =
-    "default-src 'self'; img-src 'self' data: blob:; object-src 'none'; base-uri 'none'; form-action 'none'; "
-    "frame-ancestors 'none'";
+/// The page is one origin's own: no foreign scripts, in no foreign frame, and no foreign pictures but those
+/// of the machine's cameras. `host`: what the reader calls this computer.
+std::string policy(const joblink::MachineInfo& machine, std::string_view host) {
+  std::string cameras;
+  for (const joblink::Camera& camera : machine.cameras())
+    cameras.append(" ").append(camera_origin(camera_address_from(camera.stream(), host)));
+  return "default-src 'self'; img-src 'self' data: blob:" + cameras +
+         "; object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+}
 
 void page(Session& session, std::string_view) {
   std::string name;
@@ -25,10 +32,11 @@ void page(Session& session, std::string_view) {
                           pages.empty() ? "the web page is not installed" : "the web page has no such file");
   const Page& file = found->second;
   Answer answer{.type = file.type, .may_be_kept = true};
-  answer.fields = {{"ETag", "\"" + file.mark + "\""},
-                   {"Vary", "Accept-Encoding"},
-                   {"Content-Security-Policy", kPolicy},
-                   {"Referrer-Policy", "no-referrer"}};
+  answer.fields = {
+      {"ETag", "\"" + file.mark + "\""},
+      {"Vary", "Accept-Encoding"},
+      {"Content-Security-Policy", policy(session.server().link().machine(), session.head().field("Host"))},
+      {"Referrer-Policy", "no-referrer"}};
   if (session.head().field("If-None-Match").find(file.mark) != std::string_view::npos) {
     answer.status = 304;
     return session.answer(answer);

@@ -2,13 +2,16 @@
 import { Link } from './link.js';
 import { choose_language, number, present_language, say_all, t } from './words.js';
 import { Bus } from './bus.js';
+import { Cameras } from './cameras.js';
 import { Console } from './console.js';
 import { Files } from './files.js';
 import { Heaters } from './heaters.js';
 import { Job } from './job.js';
+import { Macros } from './macros.js';
 import { Motion } from './motion.js';
 import { load_said, said, said_problem } from './said.js';
 import { Pictures } from './pictures.js';
+import { Tuning } from './tuning.js';
 
 const at = (id) => document.getElementById(id);
 let link = null;
@@ -33,9 +36,10 @@ async function ask(name, fields) {
   }
 }
 
-const panels = { ask, tell, link: () => link, pictures: new Pictures(() => link), job: (name) => files.job(name) };
+const panels = { ask, tell, may_command: () => role !== 'watch', run: (line) => lines.run(line), link: () => link, pictures: new Pictures(() => link), job: (name) => files.job(name) };
 const files = new Files(panels);
-const all = [new Job(panels), new Heaters(panels), new Motion(panels), files, new Bus(), new Console(panels)];
+const lines = new Console(panels);
+const all = [new Job(panels), new Cameras(), new Heaters(panels), new Motion(panels), new Macros(panels), files, new Bus(), new Tuning(panels), lines];
 
 const kKind = { STATE_READY: 'good', STATE_HELD: 'work', STATE_STOPPING: 'bad', STATE_STOPPED: 'bad', STATE_ALARM: 'bad', STATE_OFF: 'none', STATE_UNHOMED: 'none' };
 function show_state() {

@@ -9,6 +9,7 @@ export class Console {
   #back = 0;
 
   constructor(panels) {
+    this.ask = panels.ask;
     at('console').onsubmit = async (event) => {
       event.preventDefault();
       const line = at('line').value.trim();
@@ -16,9 +17,7 @@ export class Console {
       at('line').value = '';
       this.#said.push(line);
       this.#back = this.#said.length;
-      this.#add(`> ${line}`, 'said', 'en');
-      const reply = await panels.ask('console', { line });
-      if (reply?.console?.text) this.#add(reply.console.text, '', 'en');
+      await this.run(line);
     };
     at('line').onkeydown = (event) => {
       const step = { ArrowUp: -1, ArrowDown: 1 }[event.key];
@@ -27,6 +26,12 @@ export class Console {
       this.#back = Math.min(Math.max(this.#back + step, 0), this.#said.length);
       at('line').value = this.#said[this.#back] ?? '';
     };
+  }
+
+  async run(line) {
+    this.#add(`> ${line}`, 'said', 'en');
+    const reply = await this.ask('console', { line });
+    if (reply?.console?.text) this.#add(reply.console.text, '', 'en');
   }
 
   hear(event) {

@@ -1,9 +1,10 @@
 #!/usr/bin/env node
 // The web page in Chromium, against kinebusd with a simulated machine: a print from the key to the emergency stop, three
-// languages, dark and light, telephone and desktop; axe-core finds nothing.
+// languages, dark and light, telephone and desktop, a camera, a macro, a heater that is measured; axe-core finds nothing.
 //   page_test.mjs BUILD [SCREENSHOTS]      Exit status 1: a claim does not hold; 77: skipped, and why
 import { spawn } from 'node:child_process';
 import fs from 'node:fs';
+import http from 'node:http';
 import { createRequire } from 'node:module';
 import os from 'node:os';
 import path from 'node:path';
@@ -21,14 +22,25 @@ const kPatience = 60_000;
 
 const work = fs.mkdtempSync(path.join(os.tmpdir(), 'kinebus-web-'));
 fs.mkdirSync(shots, { recursive: true });
-const log = fs.openSync(path.join(work, 'log'), 'w');
-const machine = path.join(work, 'machine.toml');
-fs.writeFileSync(machine, fs.readFileSync(new URL('../../description/machines/m1.toml', import.meta.url), 'utf8') +
-  '\n[material.PLA]\nhotend_c = 210\nbed_c = 60\n');
-const daemon = spawn(path.join(build, 'bin/kinebusd'),
-  ['--bus', 'inproc', '--machine', machine, '--jobs', path.join(work, 'jobs'), '--socket', path.join(work, 'socket'), '--no-realtime', '--http', '127.0.0.1:0'],
-  { stdio: ['ignore', 'ignore', log] });
-const said = () => fs.readFileSync(path.join(work, 'log'), 'utf8');
+const daemons = [];
+/// A daemon of a shipped machine with more in its file: what it says, and where its page is.
+function start(name, machine, more = '') {
+  const folder = path.join(work, name);
+  fs.mkdirSync(folder);
+  const file = path.join(folder, 'machine.toml');
+  fs.writeFileSync(file, fs.readFileSync(new URL(`../../description/machines/${machine}.toml`, import.meta.url), 'utf8') + more);
+  const process = spawn(path.join(build, 'bin/kinebusd'),
+    ['--bus', 'inproc', '--machine', file, '--jobs', path.join(folder, 'jobs'), '--socket', path.join(folder, 'socket'), '--no-realtime', '--http', '127.0.0.1:0'],
+    { stdio: ['ignore', 'ignore', fs.openSync(path.join(folder, 'log'), 'w')] });
+  const said = () => fs.readFileSync(path.join(folder, 'log'), 'utf8');
+  const daemon = {
+    process, said,
+    port: () => until('the daemon listens', () => /HTTP port (\d+)/.exec(said())?.[1]),
+    key: () => fs.readFileSync(path.join(folder, 'jobs/.tls/http-key'), 'utf8').trim(),
+  };
+  daemons.push(daemon);
+  return daemon;
+}
 const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 async function until(what, done) {
   for (const end = Date.now() + kPatience; Date.now() < end; await sleep(100)) {
@@ -37,8 +49,8 @@ async function until(what, done) {
   }
   throw new Error(`not within ${kPatience / 1000} s: ${what}`);
 }
-/// A block as slicers write it, with a PNG: a blue bowl on grey.
-function picture_block(width, height) {
+/// A PNG: a blue bowl on grey.
+function picture(width, height) {
   const chunk = (type, data) => {
     const body = Buffer.concat([Buffer.from(type), data]);
     const ends = Buffer.alloc(8);
@@ -57,8 +69,11 @@ function picture_block(width, height) {
       rows.set(bowl ? [40, 90, 200] : [225, 225, 225], y * (3 * width + 1) + 1 + 3 * x);
     }
   }
-  const png = Buffer.concat([Buffer.from('89504e470d0a1a0a', 'hex'), chunk('IHDR', head), chunk('IDAT', zlib.deflateSync(rows)), chunk('IEND', Buffer.alloc(0))]);
-  const digits = png.toString('base64');
+  return Buffer.concat([Buffer.from('89504e470d0a1a0a', 'hex'), chunk('IHDR', head), chunk('IDAT', zlib.deflateSync(rows)), chunk('IEND', Buffer.alloc(0))]);
+}
+/// A block as slicers write it.
+function picture_block(width, height) {
+  const digits = picture(width, height).toString('base64');
   return `; thumbnail begin ${width}x${height} ${digits.length}\n${digits.replace(/.{1,78}/g, '; $&\n')}; thumbnail end\n`;
 }
 function crc(bytes) {
@@ -69,26 +84,54 @@ function crc(bytes) {
   }
   return ~sum >>> 0;
 }
+/// A camera's program with a test pattern, ten pictures a second; `watched`: by how many.
+const camera = { watched: 0, pictures: 0 };
+camera.server = http.createServer((request, response) => {
+  if (request.url !== '/stream') return response.end('no camera is there');
+  response.writeHead(200, { 'Content-Type': 'multipart/x-mixed-replace; boundary=next' });
+  const pattern = picture(160, 120);
+  const timer = setInterval(() => {
+    ++camera.pictures;
+    response.write(`--next\r\nContent-Type: image/png\r\nContent-Length: ${pattern.length}\r\n\r\n`);
+    response.write(Buffer.concat([pattern, Buffer.from('\r\n')]));
+  }, 100);
+  ++camera.watched;
+  response.on('close', () => { clearInterval(timer); --camera.watched; });
+});
+await new Promise((resolve) => camera.server.listen(0, '127.0.0.1', resolve));
+const camera_port = camera.server.address().port;
 let claims = 0;
+const wrong = [];
 function claim(holds, words) {
   if (!holds) throw new Error(`does not hold: ${words}`);
   ++claims;
 }
 
 async function main() {
-  const port = await until('the daemon listens', () => /HTTP port (\d+)/.exec(said())?.[1]);
-  const key = fs.readFileSync(path.join(work, 'jobs/.tls/http-key'), 'utf8').trim();
+  const daemon = start('printer', 'm1', `
+[material.PLA]
+hotend_c = 210
+bed_c = 60
+[macro.TELL]
+gcode = "G4 P#<ms>\\nM118 of the macro"
+[camera.nozzle]
+stream = ":${camera_port}/stream"
+[camera.table]
+stream = ":${camera_port}/silent"
+`);
+  const port = await daemon.port();
+  const key = daemon.key();
   const address = `http://127.0.0.1:${port}`;
   const browser = await playwright.chromium.launch({ executablePath: chromium, args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] });
   try {
     const context = await browser.newContext({ viewport: { width: 1440, height: 1000 }, locale: 'en-GB', colorScheme: 'light' });
     context.setDefaultTimeout(kPatience);
     const page = await context.newPage();
-    const wrong = [];
     let bytes = 0, bytes_of_scene = 0;
     page.on('pageerror', (error) => wrong.push(String(error)));
     page.on('console', (message) => message.type() === 'error' && wrong.push(message.text()));
     page.on('response', async (response) => {
+      if (response.url().startsWith(`http://127.0.0.1:${camera_port}/`)) return;
       if (!response.url().replace(/^blob:/, '').startsWith(address)) wrong.push(`foreign request: ${response.url()}`);
       const sizes = await response.request().sizes().catch(() => null);
       if (/three|scene/.test(response.url())) bytes_of_scene += sizes?.responseBodySize ?? 0;
@@ -145,6 +188,7 @@ async function main() {
     await page.locator('#jobs .start').first().click();
     await state('running');
     await until('the job moves on', async () => (await page.locator('#progress').evaluate((bar) => bar.value)) > 0.02);
+    await page.locator('#job-name').scrollIntoViewIfNeeded();
     await until('the great picture stands beside the job', () => page.locator('#job-picture img').evaluate((image) => image.complete && image.naturalWidth === 320));
     await page.screenshot({ path: path.join(shots, 'desktop-light-en.png'), fullPage: true });
     await page.click('#pause');
@@ -155,6 +199,25 @@ async function main() {
     const nodes = await page.locator('#nodes tr').allInnerTexts();
     claim(nodes.length === 3 && nodes.every((words) => words.includes('operational')), `the nodes are there: ${nodes}`);
     claim(/^Load \d+\.\d%, at most \d+\.\d%$/.test(await text('bus-load')), `the bus has a load: ${await text('bus-load')}`);
+
+    // Pictures come while the camera is to be seen, and no longer.
+    await page.locator('#camera').scrollIntoViewIfNeeded();
+    const shown = page.locator('#camera img');
+    await until('the camera is seen', async () => (await shown.count()) === 1 && shown.evaluate((image) => image.naturalWidth === 160));
+    claim((await shown.getAttribute('alt')) === 'Picture of the camera nozzle', 'the picture says of which camera it is');
+    await page.getByRole('button', { name: 'table', exact: true }).click();
+    await until('a camera that is silent is told', async () => (await text('camera-state')).startsWith('The camera sends no picture'));
+    await until('the other is not watched any more', () => camera.watched === 0);
+    await page.getByRole('button', { name: 'nozzle', exact: true }).click();
+    await until('the camera is seen again', async () => (await shown.count()) === 1 && shown.evaluate((image) => image.naturalWidth === 160));
+    claim((await text('camera-state')) === '', 'nothing is missing any more');
+
+    await page.fill('#macro-words', 'MS=20');
+    await page.getByRole('button', { name: 'Run the macro TELL' }).click();
+    await until('the macro is called with its words', async () => (await text('log')).includes('> TELL MS=20'));
+    await until('it is carried out', async () => (await text('log')).includes('of the macro'));
+    claim((await page.locator('#motors tr').count()) === 6, 'a row for each motor');
+    claim(await page.locator('#motors button').first().isDisabled(), 'no motor is measured while a job runs');
 
     // The page's policy lets no script in but its own: this one comes by the debugger.
     await page.evaluate(fs.readFileSync(axe, 'utf8'));
@@ -184,19 +247,52 @@ async function main() {
     await until('the heaters are off', async () => (await page.locator('#heaters .now').first().innerText()).includes('/ 0'));
     await page.locator('#clear').click();
     claim(wrong.filter((words) => !/401|SwiftShader|GPU stall/.test(words)).length === 0, `no errors: ${wrong.join('; ')}`);
+    await measure(browser);
     console.log(`web_page: ${claims} claims hold; ${Math.round(bytes / 1024)} KiB and ${Math.round(bytes_of_scene / 1024)} KiB of the scene came over the wire; screenshots in ${shots}`);
   } finally {
     await browser.close();
   }
 }
 
+/// A heater of a node is measured, and somebody ends it.
+async function measure(browser) {
+  const daemon = start('heat', 'm1_heat');
+  const port = await daemon.port();
+  const context = await browser.newContext({ viewport: { width: 1440, height: 1000 }, locale: 'en-GB', colorScheme: 'light' });
+  context.setDefaultTimeout(kPatience);
+  const page = await context.newPage();
+  page.on('dialog', (dialog) => dialog.accept());
+  await page.goto(`http://127.0.0.1:${port}/#key=${daemon.key()}`);
+  const text = (id) => page.locator(`#${id}`).innerText();
+  await until('the machine is off', async () => (await text('state')) === 'off');
+  claim(await page.locator('#cameras').isHidden() && await page.locator('#macros').isHidden(), 'no panels for what the machine has not');
+  await page.click('#bring_up');
+  await until('heaters may be measured', () => page.locator('#tune').isEnabled());
+  await page.selectOption('#tune-heater', { label: 'hotend' });
+  await page.fill('#tune-target', '200');
+  await page.click('#tune');
+  await until('it heats with full power', async () => (await text('tune-state')) === 'It heats with full power');
+  claim(await page.locator('#tune').isDisabled(), 'one at a time');
+  await page.locator('#tuning').scrollIntoViewIfNeeded();
+  await sleep(8000);
+  await page.screenshot({ path: path.join(shots, 'calibration.png') });
+  await page.click('#tune-end');
+  await until('it is ended', async () => (await text('tune-state')).startsWith('Not measured. '));
+  await context.close();
+}
+
 let failed = null;
 await main().catch((error) => { failed = error; });
-daemon.kill('SIGTERM');
-await Promise.race([new Promise((resolve) => daemon.on('exit', resolve)), sleep(20_000)]);
+camera.server.closeAllConnections();
+camera.server.close();
+for (const { process } of daemons) {
+  process.kill('SIGTERM');
+  await Promise.race([new Promise((resolve) => process.on('exit', resolve)), sleep(20_000)]);
+}
 if (failed) {
   console.error(failed.stack ?? failed);
-  console.error(said().split('\n').slice(-15).join('\n'));
+  if (wrong.length > 0) console.error(`the page: ${wrong.join('; ')}`);
+  for (const daemon of daemons) console.error(daemon.said().split('\n').slice(-15).join('\n'));
 }
 fs.rmSync(work, { recursive: true, force: true });
 process.exit(failed ? 1 : 0);

@@ -1,10 +1,13 @@
-// Moonraker's API: cameras, which pages enter and keep with the printer; Kinebus itself has no part in their
-// pictures.
+// Moonraker's API: cameras, those of the machine file and those that pages enter and keep with the printer.
+// The gateway has no part in their pictures.
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "gateway/description/camera_address.hpp"
 #include "gateway/sessions/http/moonraker/moonraker.hpp"
 #include "protocol/joblink/sha256.hpp"
 
@@ -39,19 +42,45 @@ Json kept_webcams(const Call& call) {
   return kept && kept->is_object() ? std::move(*kept) : Json::object();
 }
 
+std::string uid_by_name(const std::string& name) {
+  return joblink::to_hex(joblink::sha256_of("webcam " + name)).substr(0, kUidDigits);
+}
+
+/// By uid. The machine file's cannot be changed here, and take the place of others of their names.
+Json all_webcams(const Call& call) {
+  Server& server = call.caller.server();
+  const std::vector<std::string>& names = server.options().names;
+  const std::string host = names.empty() ? "localhost" : names.back();
+  Json all = kept_webcams(call);
+  for (const joblink::Camera& camera : server.link().machine().cameras()) {
+    const std::string uid = uid_by_name(camera.name());
+    Json webcam = usual_webcam();
+    webcam.update({{"name", camera.name()},
+                   {"stream_url", camera_address_from(camera.stream(), host)},
+                   {"snapshot_url", camera_address_from(camera.snapshot(), host)},
+                   {"source", "config"},
+                   {"uid", uid}});
+    all[uid] = std::move(webcam);
+  }
+  return all;
+}
+bool is_of_machine_file(const Json& webcam) {
+  return word_in(webcam, "source") == "config";
+}
+
 /// Of the webcam that is meant, by "uid" or by "name"; "": none is.
 std::string uid_of(const Call& call) {
   const std::string uid = call.text("uid"), name = call.text("name");
-  const Json kept = kept_webcams(call);
-  for (const auto& [known, webcam] : kept.items())
+  const Json all = all_webcams(call);
+  for (const auto& [known, webcam] : all.items())
     if (uid.empty() ? word_in(webcam, "name") == name : known == uid) return known;
   return {};
 }
 
 void list(const Call& call) {
   Json webcams = Json::array();
-  const Json kept = kept_webcams(call);
-  for (const auto& [uid, webcam] : kept.items()) webcams.push_back(webcam);
+  const Json all = all_webcams(call);
+  for (const auto& [uid, webcam] : all.items()) webcams.push_back(webcam);
   call.done({{"webcams", std::move(webcams)}});
 }
 
@@ -59,10 +88,14 @@ void no_such_webcam(const Call& call) {
   call.fail(404, "there is no webcam of this uid or name");
 }
 
+void of_machine_file(const Call& call) {
+  call.fail(400, "this webcam is the machine file's: change its [camera] there");
+}
+
 void get(const Call& call) {
   const std::string uid = uid_of(call);
   if (uid.empty()) return no_such_webcam(call);
-  call.done({{"webcam", kept_webcams(call)[uid]}});
+  call.done({{"webcam", all_webcams(call)[uid]}});
 }
 
 void post(const Call& call) {
@@ -71,7 +104,9 @@ void post(const Call& call) {
   std::string uid = uid_of(call);
   if (uid.empty() && !call.text("uid").empty()) return no_such_webcam(call);
   if (uid.empty() && name.empty()) return call.fail(400, "the parameter 'name' is missing");
-  if (uid.empty()) uid = joblink::to_hex(joblink::sha256_of("webcam " + name)).substr(0, kUidDigits);
+  if (uid.empty()) uid = uid_by_name(name);
+  if (const Json all = all_webcams(call); all.contains(uid) && is_of_machine_file(all[uid]))
+    return of_machine_file(call);
   Json webcam = usual_webcam();
   webcam.update(kept_webcams(call).value(uid, Json::object()));
   for (auto& [field, value] : webcam.items()) {
@@ -94,6 +129,7 @@ void remove(const Call& call) {
   if (!call.may_operate()) return;
   const std::string uid = uid_of(call);
   if (uid.empty()) return no_such_webcam(call);
+  if (is_of_machine_file(all_webcams(call)[uid])) return of_machine_file(call);
   auto& server = call.caller.server();
   auto removed = server.database().remove(kSpace, uid);
   if (!removed) return no_such_webcam(call);

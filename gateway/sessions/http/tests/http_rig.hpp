@@ -47,10 +47,14 @@ struct Connection {
 
 class HttpRig {
  public:
-  explicit HttpRig(JobStore::Options options = {}, std::size_t max_sessions = 32, Users users = Users(kKey))
-      : link(std::move(options)),
+  explicit HttpRig(JobStore::Options options = {}, std::size_t max_sessions = 32, Users users = Users(kKey),
+                   MachineDescription machine = default_m1(), Pages pages = {})
+      : link(std::move(options), {}, std::move(machine)),
         server(*link.server, *link.store, link.worker, link.control,
-               {.users = std::move(users), .names = {"kinebus"}, .max_sessions = max_sessions}) {}
+               {.users = std::move(users),
+                .names = {"kinebus"},
+                .max_sessions = max_sessions,
+                .pages = std::move(pages)}) {}
   ~HttpRig() {
     connections.clear();
     link.worker.run();
