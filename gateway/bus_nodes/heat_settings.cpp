@@ -96,8 +96,13 @@ void add_heat_settings(const MachineDescription& machine, std::uint8_t node_id,
   std::array<const SensorWiring*, kHeatSensors> sensors{};
   std::array<bool, kHeaters> used{};
   std::array<const HeaterDescription*, kFans> cools{};
-  const HeaterDescription* melts = machine.heater(kFirstHotend);
-  settings.set(kFlowHeater, 0, melts != nullptr && here(melts->place) ? melts->place.channel : 1);
+  // Where several melt filament, the one in use is told as it changes.
+  if (machine.hotends_on(node_id) <= 1) {
+    const auto melts = std::find_if(
+        machine.heaters.begin(), machine.heaters.end(),
+        [&here](const HeaterDescription& h) { return h.kind == HeaterKind::kHotend && here(h.place); });
+    settings.set(kFlowHeater, 0, melts != machine.heaters.end() ? melts->place.channel : 1);
+  }
   settings.set(kMasterLost, 0, static_cast<double>(machine.thermal.gateway_lost.count()));
   for (const HeaterDescription& heater : machine.heaters) {
     if (!here(heater.place) || heater.place.channel > kHeaters) continue;

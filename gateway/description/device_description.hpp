@@ -6,6 +6,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "gateway/kinematics/geometry.hpp"
@@ -35,6 +36,8 @@ struct HeaterId {
     return a.kind != b.kind ? a.kind < b.kind : a.index < b.index;
   }
 };
+/// What is known of the targets of hot ends, by index, deg C; none: nothing.
+using HotendTargets = std::array<std::optional<double>, kMostOfAKind>;
 inline constexpr HeaterId kFirstHotend{HeaterKind::kHotend, 0}, kFirstBed{HeaterKind::kBed, 0};
 
 /// What a heat node has, at most.

@@ -106,6 +106,13 @@ int MachineDescription::tools() const {
   return tools;
 }
 
+int MachineDescription::hotends_on(std::uint8_t node_id) const {
+  return static_cast<int>(
+      std::count_if(heaters.begin(), heaters.end(), [node_id](const HeaterDescription& h) {
+        return h.kind == HeaterKind::kHotend && h.place.on_node() && h.place.node_id == node_id;
+      }));
+}
+
 std::string identity(const MachineDescription& description) {
   std::string text = description.name;
   for (const JointDescription& joint : description.joints) text += " " + joint.name;

@@ -370,6 +370,8 @@ struct MachineDescription {
   }
   /// The tools T0 .. T(n - 1) that a job may name: hot ends, and always one.
   int tools() const;
+  /// Hot ends whose heaters are channels of this node.
+  int hotends_on(std::uint8_t node_id) const;
 };
 
 /// The default machine: M1, 4 towers on nodes 1 and 2, table C and extruder E on node 3. Equal to

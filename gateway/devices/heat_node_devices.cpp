@@ -18,7 +18,7 @@ class NodeHeater : public Heater {
   std::optional<Sentence> cannot_tune() const override { return std::nullopt; }
   void tune(double celsius) override { node_->tune(channel_, celsius, power_w_); }
   HeaterTuning tuning() const override { return node_->tuning(channel_); }
-  void feed_ahead(const FlowAhead& watts) override { node_->feed_ahead(watts); }
+  void feed_ahead(const FlowAhead& watts) override { node_->feed_ahead(channel_, watts); }
 
  private:
   std::shared_ptr<HeatNodeLink> node_;
@@ -91,7 +91,7 @@ std::unique_ptr<Interface> make(const DevicePlace& place, std::size_t first, std
 HeatNodeLinks heat_node_links(const MachineDescription& machine) {
   HeatNodeLinks links;
   for (const NodeDescription& node : machine.nodes)
-    if (!node.functions.has_axes() && machine.carries_heat(node.id))
+    if (!node.functions.has_axes() && machine.carries_heat(node.id)) {
       links[node.id] = std::make_shared<HeatNodeLink>(
           node.id,
           std::all_of(machine.fans.begin(), machine.fans.end(),
@@ -99,6 +99,8 @@ HeatNodeLinks heat_node_links(const MachineDescription& machine) {
                         return fan.place.where == DevicePlace::Where::kNode && fan.place.node_id == node.id;
                       }),
           machine.accelerometer.directions());
+      if (machine.hotends_on(node.id) > 1) links[node.id]->let_several_melt();
+    }
   return links;
 }
 

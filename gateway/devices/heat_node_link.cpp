@@ -172,7 +172,9 @@ HeaterTuning HeatNodeLink::tuning(std::size_t heater) const {
   return tuning_.heater() == heater ? tuning_.told() : HeaterTuning{};
 }
 
-void HeatNodeLink::feed_ahead(const FlowAhead& watts) {
+void HeatNodeLink::feed_ahead(std::size_t heater, const FlowAhead& watts) {
+  const auto number = static_cast<std::int16_t>(heater + 1);
+  if (flow_heater_.wanted != number) flow_heater_.set(number);
   constexpr double kMost_w = 327;
   for (std::size_t i = 0; i < flow_.size(); ++i)
     flow_[i] = static_cast<std::int16_t>(std::lround(100 * std::clamp(watts[i], 0.0, kMost_w)));
@@ -233,6 +235,8 @@ std::optional<CanFrame> HeatNodeLink::extruder_frame(BusTime now) {
 }
 
 std::optional<CanFrame> HeatNodeLink::flow_frame(BusTime now) {
+  // It would be taken for another heater's.
+  if (several_melt_ && (flow_heater_.due || flow_heater_.refused != AbortCode::kNone)) return std::nullopt;
   const bool flows = flow_ != Flow{};
   const BusTime since = now - flow_told_at_;
   const bool again = since >= (flows ? kFlowAgain : kNoFlowAgain) && (flows || all_fans_);
@@ -267,6 +271,7 @@ void HeatNodeLink::on_bring_up(BusTime now, bool done) {
   heard_ = measured_ = now_ = std::max(now_, now);
   for (Value& set : set_points_) set.due = true;
   for (Value& output : outputs_) output.due = true;
+  flow_heater_.due = true;
   for (std::size_t n = 0; n < kHeaters; ++n) reset_fault(n);
 }
 
@@ -311,6 +316,10 @@ void HeatNodeLink::begin_next(BusTime now) {
         return;
       }
     }
+  if (several_melt_ && flow_heater_.due) {
+    begin(now, Writing::kFlowHeater, 0, kFlowHeater, flow_heater_.wanted, 1);
+    return;
+  }
   for (std::size_t n = 0; n < kFans; ++n)
     if (outputs_[n].due) {
       begin(now, Writing::kOutput, n, kFanOutput, outputs_[n].wanted, 2);
@@ -387,7 +396,9 @@ void HeatNodeLink::settle(BusTime now) {
     filament_due_[channel_] = false;
     return;
   }
-  Value& value = what == Writing::kSetPoint ? set_points_[channel_] : outputs_[channel_];
+  Value& value = what == Writing::kSetPoint     ? set_points_[channel_]
+                 : what == Writing::kFlowHeater ? flow_heater_
+                                                : outputs_[channel_];
   if (value.wanted != written_) return;  // it is to be another by now
   value.due = false;
   value.told = now;

@@ -47,8 +47,10 @@ class HeatNodeLink : public Device {
   /// The node measures it; a target, 0 too, ends that. One at a time.
   void tune(std::size_t heater, double celsius, double power_w);
   HeaterTuning tuning(std::size_t heater) const;
-  /// For the heater that its settings name (2228h).
-  void feed_ahead(const FlowAhead& watts);
+  /// For one heater at a time. Where several of the node melt filament, it is told which before (2228h);
+  /// where one does, its settings say so.
+  void feed_ahead(std::size_t heater, const FlowAhead& watts);
+  void let_several_melt() { several_melt_ = true; }
   FilamentCondition filament(std::size_t sensor) const { return filaments_[sensor]; }
   /// Where the extruder is to be now; the node holds what its wheels see against it.
   void follow_extruder(double mm);
@@ -84,7 +86,8 @@ class HeatNodeLink : public Device {
     kPin,
     kModel,
     kTuning,
-    kVibration
+    kVibration,
+    kFlowHeater
   };
 
   bool on_report(BusTime now, const CanFrame& frame);
@@ -110,6 +113,8 @@ class HeatNodeLink : public Device {
   using Flow = std::array<std::int16_t, std::tuple_size_v<FlowAhead>>;  ///< 10 mW
   Flow flow_{}, flow_told_{};
   BusTime flow_told_at_{0};
+  bool several_melt_ = false;
+  Value flow_heater_{.wanted = 1};  ///< 2228h: counted from 1
 
   std::array<Value, kHeaters> set_points_{};
   std::array<bool, kHeaters> reset_due_{};

@@ -104,6 +104,10 @@ struct Thermal {
   bool wait_cooling = false;  ///< R form: also waits for it to fall
   int index = 0;              ///< among those of its kind
 };
+/// T of a machine with several hot ends: from here on this one melts what is fed. Motion rests before it.
+struct Tool {
+  int hotend = 0;
+};
 /// M3 > 0 (clockwise seen from the spindle), M4 < 0, M5 0. Motion waits at rest until the speed is reached.
 struct Spindle {
   double rpm = 0;
@@ -207,7 +211,7 @@ struct End {};  ///< M2 / M30, or the end of the text
 using Command =
     std::variant<Traverse, Feed, Arc, Dwell, PathMode, SetPosition, Limits, Thermal, Spindle, Home, Pause,
                  MotorsOff, MotorsOn, WaitIdle, Override, Message, Query, EmergencyStop, StoredJob, Settings,
-                 End, PressureAdvance, Probe, InputShaping, Mesh, ProbePin, AwaitInput, SpindleSync>;
+                 End, PressureAdvance, Probe, InputShaping, Mesh, ProbePin, AwaitInput, SpindleSync, Tool>;
 
 /// One command with the line of the job that it came from (1-based).
 struct Line {

@@ -96,6 +96,7 @@ struct Writer {
     if (c.wait) text += c.wait_cooling ? " wait_both" : " wait";
     return text;
   }
+  std::string operator()(const Tool& c) const { return "tool " + std::to_string(c.hotend); }
   std::string operator()(const Spindle& c) const { return "spindle " + number(c.rpm); }
   std::string operator()(const SpindleSync& c) const {
     return c.rpm > 0 ? "sync " + number(c.rpm) + feed_text(c.feed_per_s, 0) : "sync off";

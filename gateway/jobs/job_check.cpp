@@ -35,7 +35,9 @@ JobCheck::JobCheck(const MachineDescription& machine, const Kinematics& kinemati
                                                               : nullptr),
       way_(machine, kinematics, printed_.get()),
       options_(options),
-      hotend_celsius_(options.hotend_celsius) {}
+      tool_(options.tool % kMostOfAKind) {
+  for (std::size_t i = 0; i < hotends_.size(); ++i) hotends_[i].celsius = options.hotend_celsius[i];
+}
 
 void JobCheck::add(Problem::Severity severity, std::uint32_t line, Sentence words) {
   problems_.add({severity, line, 0, std::move(words)});
@@ -68,7 +70,7 @@ void JobCheck::check_way(const Phase& phase, const PosePoint& end) {
     mm = std::max(mm, tip_speed(start));
     rad = std::max(rad, turning_speed(start));
   }
-  if (end.x1[kE] > 1e-9 && !cold_reported_) check_extrusion(phase.line, end.x[kE]);
+  if (end.x1[kE] > 1e-9 && !hotends_[tool_].cold_reported) check_extrusion(phase.line, end.x[kE]);
   since_mm_ += length * mm;
   since_rad_ += length * rad;
   if (since_mm_ < options_.pose_distance_mm && since_rad_ < options_.pose_distance_rad && !phase.last) return;
@@ -104,31 +106,38 @@ bool JobCheck::goes_farther_out(std::uint32_t line) const {
 }
 
 void JobCheck::check_extrusion(std::uint32_t line, double e_mm) {
-  const HeaterDescription* const hotend = machine_.heater(kFirstHotend);
-  if (hotend == nullptr) return;
-  by_found_heat_ = by_found_heat_ || !hotend_told_;
-  if (!hotend_celsius_) {
-    cold_reported_ = true;
+  const HeaterId id{HeaterKind::kHotend, tool_};
+  const HeaterDescription* const known = machine_.heater(id);
+  if (known == nullptr) return;
+  Hotend& hotend = hotends_[tool_];
+  by_found_heat_ = by_found_heat_ || !hotend.told;
+  const std::string least = celsius(machine_.thermal.min_extrude_c);
+  if (!hotend.celsius) {
+    hotend.cold_reported = true;
     add(Problem::Severity::kWarning, line,
-        hotend->place.on_node() ? say("filament is fed before the job has set a hotend temperature (M104): "
-                                      "it runs only while the "
-                                      "hotend is set to at least %1",
-                                      celsius(machine_.thermal.min_extrude_c))
-                                : say("filament is fed before the job has set a hotend temperature (M104)"));
-  } else if (*hotend_celsius_ >= machine_.thermal.min_extrude_c) {
+        known->place.on_node()
+            ? say("filament is fed before the job has set a %1 temperature (M104): it runs only while the %1 "
+                  "is set to at least %2",
+                  heater_words(id), least)
+            : say("filament is fed before the job has set a %1 temperature (M104)", heater_words(id)));
+  } else if (*hotend.celsius >= machine_.thermal.min_extrude_c) {
     hot_e_mm_ = std::max(hot_e_mm_, e_mm);
   } else if (e_mm > hot_e_mm_ + kFedBack_mm) {
     // Up to where it was fed hot, filament goes back into what it came out of: ends of jobs press it.
-    cold_reported_ = true;
+    hotend.cold_reported = true;
     add(Problem::Severity::kError, line,
-        say("filament is fed with the hotend at %1; at least %2 is needed", celsius(*hotend_celsius_),
-            celsius(machine_.thermal.min_extrude_c)));
+        say("filament is fed with the %1 at %2; at least %3 is needed", heater_words(id),
+            celsius(*hotend.celsius), least));
   }
 }
 
 void JobCheck::command(const canonical::Line& line) {
   if (const auto* thermal = std::get_if<canonical::Thermal>(&line.command))
     check_thermal(*thermal, line.line);
+  if (const auto* tool = std::get_if<canonical::Tool>(&line.command)) {
+    tool_ = static_cast<std::uint8_t>(tool->hotend % kMostOfAKind);
+    hot_e_mm_ = -1e300;
+  }
   if (const auto* spindle = std::get_if<canonical::Spindle>(&line.command))
     if (auto wrong = wrong_spindle_speed(machine_.spindle, spindle->rpm))
       add(Problem::Severity::kError, line.line, std::move(*wrong));
@@ -163,9 +172,11 @@ void JobCheck::check_thermal(const canonical::Thermal& thermal, std::uint32_t li
     add(Problem::Severity::kError, line, std::move(*wrong));
   if (auto missing = missing_fan(machine_, thermal); missing && !std::exchange(fan_reported_, true))
     add(Problem::Severity::kWarning, line, std::move(*missing));
-  if (heater_of(thermal) != kFirstHotend) return;
-  hotend_celsius_ = thermal.value;
-  hotend_told_ = true;
+  const auto id = heater_of(thermal);
+  if (!id || id->kind != HeaterKind::kHotend) return;
+  Hotend& hotend = hotends_[id->index % hotends_.size()];
+  hotend.celsius = thermal.value;
+  hotend.told = true;
 }
 
 }  // namespace kinebus

@@ -2,6 +2,7 @@
 // The rules that a job must keep, applied to what the pipeline gives out: poses along the path, bodies on
 // their way, temperatures, commands out of place. Collects every problem with its line.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,8 +22,9 @@ class JobCheck {
     /// good poses 1 mm apart the path leaves it by less than 2 um (radius of curvature >= 100 mm).
     double pose_distance_mm = 1;
     double pose_distance_rad = 0.01;
-    /// Hotend target when the job begins; nullopt: not known.
-    std::optional<double> hotend_celsius;
+    /// Targets of hot ends when the job begins, and which of them is in use.
+    HotendTargets hotend_celsius{};
+    std::uint8_t tool = 0;
   };
 
   JobCheck(const MachineDescription& machine, const Kinematics& kinematics);
@@ -57,11 +59,15 @@ class JobCheck {
   };
   Outside outside_;                          ///< how far the last way out has led so far
   double since_mm_ = 1e9, since_rad_ = 1e9;  ///< travelled since the last check
-  std::optional<double> hotend_celsius_;
-  double hot_e_mm_ = -1e300;  ///< the farthest that filament was fed hot
-  bool hotend_told_ = false, by_found_heat_ = false;
-  bool cold_reported_ = false, fan_reported_ = false, tall_reported_ = false, probes_ = false,
-       levels_ = false, awaits_ = false;
+  struct Hotend {
+    std::optional<double> celsius;
+    bool told = false, cold_reported = false;
+  };
+  std::array<Hotend, kMostOfAKind> hotends_{};
+  std::uint8_t tool_;         ///< in use
+  double hot_e_mm_ = -1e300;  ///< the farthest that the one in use was fed hot
+  bool by_found_heat_ = false;
+  bool fan_reported_ = false, tall_reported_ = false, probes_ = false, levels_ = false, awaits_ = false;
 };
 
 }  // namespace kinebus

@@ -1,8 +1,6 @@
 #include "gateway/jobs/job_pipeline.hpp"
 
 #include <algorithm>
-#include <cstring>
-#include <iterator>
 #include <utility>
 
 #include "gateway/jobs/live_lines.hpp"
@@ -26,7 +24,7 @@ bool is_barrier(const Command& command, bool optional_stop) {
   if (const auto* thermal = std::get_if<Thermal>(&command)) return thermal->wait;
   if (const auto* pause = std::get_if<Pause>(&command)) return !pause->optional || optional_stop;
   return is_any<Dwell, Home, MotorsOff, MotorsOn, WaitIdle, canonical::Spindle, canonical::Probe,
-                canonical::Mesh, ProbePin, AwaitInput, SpindleSync>(command);
+                canonical::Mesh, ProbePin, AwaitInput, SpindleSync, Tool>(command);
 }
 
 /// Target of a motion command.
@@ -70,9 +68,7 @@ void JobPipeline::begin(const Pose& start) {
   limits_ = {};
   stage_ = Stage::kFeeding;
   in_run_ = ends_ = phase_waits_ = probing_ = melt_due_ = false;
-  const HeaterDescription* hotend = machine_.heater(kFirstHotend);
-  melt_awaited_ = hotend == nullptr || !hotend->place.on_node();
-  hotend_celsius_.reset();
+  melt_.begin(machine_);
   barrier_.reset();
   refused_.reset();
   run_s_ = event_s_ = 0;
@@ -96,7 +92,7 @@ void JobPipeline::start_job(ByteSource& source, const Pose& start, const gcode::
 
 void JobPipeline::start_commands(std::vector<canonical::Line> commands, const Pose& start) {
   begin(start);
-  melt_awaited_ = true;  // who moves by hand is told at once
+  melt_.look_away();  // who moves by hand is told at once
   commands_ = std::move(commands);
   source_ = nullptr;
   text_done_ = true;
@@ -120,13 +116,6 @@ void JobPipeline::add(const canonical::Line& line) {
 bool JobPipeline::live_idle() const {
   return waiting() == 0 && first_.empty() && events_.empty() && !in_run_ && !phase_waits_ && !barrier_ &&
          !refused_ && stage_ == Stage::kFeeding && planner_.idle();
-}
-
-std::vector<gcode::Note> JobPipeline::take_notes() {
-  if (!interpreter_ || interpreter_->notes().empty()) return {};
-  std::vector<gcode::Note> notes(interpreter_->notes().begin(), interpreter_->notes().end());
-  interpreter_->clear_notes();
-  return notes;
 }
 
 void JobPipeline::settle_live() {
@@ -291,72 +280,10 @@ std::optional<JobPipeline::Step> JobPipeline::settle() {
   return std::nullopt;
 }
 
-void JobPipeline::read_text(int& budget) {
-  commands_.clear();
-  next_command_ = 0;
-  leave_out_again();
-  if (reader_->busy()) {
-    const auto read = reader_->read({}, commands_);
-    number_commands();
-    --budget;
-    if (read) return;
-    refuse(read.error().line, read.error().column, read.error().message);
-    return reader_->skip_refused();
-  }
-  char* const begin = text_.data();
-  const char* end_of_line =
-      static_cast<const char*>(std::memchr(begin + text_at_, reader_->line_end(), text_end_ - text_at_));
-  Result<void, gcode::ParseError> read{};
-  if (const std::size_t length =
-          (end_of_line ? static_cast<std::size_t>(end_of_line + 1 - begin) : text_end_) - text_at_;
-      length > 0) {
-    // Without an end: the front of a line that the reader keeps.
-    read = reader_->read({begin + text_at_, length}, commands_);
-    text_at_ += reader_->taken();
-    bytes_ += reader_->taken();
-  }
-  if (!end_of_line && read && source_->waits()) {
-    budget = 0;
-  } else if (!end_of_line && read) {
-    text_at_ = 0;
-    text_end_ = source_->read(text_);
-    if (text_end_ == 0) {
-      read = reader_->finish(commands_);
-      text_done_ = read.has_value() && !reader_->busy();
-      if (text_done_ && reader_->untold() > 0)
-        refuse(reader_->lines(), 0,
-               say("%1 more lines are refused for reasons named above", reader_->untold()));
-    }
-  }
-  lines_ = reader_->lines();
-  number_commands();
-  --budget;
-  if (!read) {
-    refuse(read.error().line, read.error().column, read.error().message);
-    reader_->skip_refused();
-  }
-}
-
-/// Gives the commands of one line the place of that line.
-void JobPipeline::number_commands() {
-  if (reader_->steps() == 0 || commands_.empty()) return;
-  const auto place = static_cast<std::uint32_t>(steps_read());
-  places_.push_back({place, commands_.back().line});
-  for (canonical::Line& command : commands_) command.line = place;
-}
-
-/// The line of the text. Places are asked for in rising order, but for those not yet given out.
-std::uint32_t JobPipeline::line_of(std::uint32_t place) {
-  if (places_.empty() || place < places_.front().place) return place;
-  const auto after = std::upper_bound(places_.begin(), places_.end(), place,
-                                      [](std::uint32_t wanted, const Place& p) { return wanted < p.place; });
-  return std::prev(after)->line;
-}
-
 void JobPipeline::take(const canonical::Line& line) {
   const Command& command = line.command;
   if (is_any<Feed, Traverse, Arc, SetPosition>(command)) return take_motion(line);
-  if (const auto* thermal = std::get_if<Thermal>(&command)) take_thermal(*thermal);
+  melt_.take(command);
   if (const auto* mode = std::get_if<PathMode>(&command)) path_mode_ = *mode;
   if (const auto* limits = std::get_if<Limits>(&command)) merge_limits(limits_, *limits);
   if (is_any<PathMode, Limits>(command)) return add_to_planner(line);
@@ -374,26 +301,13 @@ void JobPipeline::take(const canonical::Line& line) {
   events_.push_back(line);
 }
 
-void JobPipeline::take_thermal(const Thermal& thermal) {
-  const HeaterDescription* hotend = machine_.heater(kFirstHotend);
-  if (hotend == nullptr || !hotend->place.on_node() || heater_of(thermal) != kFirstHotend) return;
-  hotend_celsius_ = thermal.value;
-  const bool melts = thermal.value >= machine_.thermal.min_extrude_c;
-  melt_awaited_ = melts && (melt_awaited_ || thermal.wait);
-}
-
-/// What is fed behind a target that melts nothing is no matter of waiting: the checks refuse it, or let
-/// filament that was taken back go where it came from.
-bool JobPipeline::feeds_before_it_melts(const canonical::Line& line) const {
-  if (melt_awaited_ || (hotend_celsius_ && *hotend_celsius_ < machine_.thermal.min_extrude_c)) return false;
-  const auto target = target_of(line.command);
-  return is_any<Feed, Traverse, Arc>(line.command) && target &&
-         target->pose[kE] > planner_.end_pose()[kE] + kNoFilament_mm;
-}
-
 void JobPipeline::take_motion(const canonical::Line& line) {
-  if (feeds_before_it_melts(line)) {
-    melt_awaited_ = melt_due_ = true;
+  const auto target = target_of(line.command);
+  const bool feeds = is_any<Feed, Traverse, Arc>(line.command) && target &&
+                     target->pose[kE] > planner_.end_pose()[kE] + kNoFilament_mm;
+  if (feeds && melt_.is_to_be_awaited()) {
+    melt_.await();
+    melt_due_ = true;
     first_.push_front(line);
     return drain(std::nullopt);
   }

@@ -19,6 +19,7 @@
 #include "gateway/gcode/programs/job_reader.hpp"
 #include "gateway/jobs/byte_source.hpp"
 #include "gateway/jobs/job_place.hpp"
+#include "gateway/jobs/melt_rule.hpp"
 #include "gateway/jobs/problem.hpp"
 #include "gateway/kinematics/geometry.hpp"
 #include "gateway/motion/planner.hpp"
@@ -86,7 +87,7 @@ class JobPipeline {
   /// Where the probe touched since a mesh was begun, or since the job was: table coordinates.
   const std::vector<Vector3>& touched() const { return touched_; }
   /// The text's wait for the hot end was cut short.
-  void melt_not_awaited() { melt_awaited_ = false; }
+  void melt_not_awaited() { melt_.not_awaited(); }
   /// At rest, behind a command: the tool's place is named so from here on.
   void stands(const Pose& pose, Frame frame);
   /// Where a probe's move ends, or would have.
@@ -148,8 +149,6 @@ class JobPipeline {
   void leave_out_again();
   void take(const canonical::Line& line);
   void take_motion(const canonical::Line& line);
-  void take_thermal(const canonical::Thermal& thermal);
-  bool feeds_before_it_melts(const canonical::Line& line) const;
   void add_to_planner(const canonical::Line& line);
   void drain(std::optional<canonical::Line> barrier);
   void plan_probe();
@@ -210,9 +209,7 @@ class JobPipeline {
   bool ends_ = false;         ///< draining towards the job's end
   bool phase_waits_ = false;  ///< phase_ was pulled; events due before it go first
   bool melt_due_ = false;     ///< draining towards kMelt
-  // Of the first hot end, where a node has it: a simulated one stands for heat that others look after.
-  std::optional<double> hotend_celsius_;  ///< by the text; none: it has said nothing
-  bool melt_awaited_ = true;
+  MeltRule melt_;
   std::optional<canonical::Line> barrier_;
   canonical::Probe probe_;
   std::uint32_t probe_line_ = 0;  ///< as a place

@@ -84,13 +84,13 @@ Pose LiveLines::program_position(const std::optional<Pose>& where) {
   return interpreter_.program_position();
 }
 
-void LiveLines::begin(const Pose& pose, std::optional<double> hotend_celsius, gcode::CommandBuffer& out) {
+void LiveLines::begin(const Pose& pose, const HotendTargets& hotends, gcode::CommandBuffer& out) {
   stand_at(pose);
   place_ = {pose, Frame::kMachine};
-  hot_e_mm_ = -1e300;
-  hotend_celsius_ = hotend_celsius;
+  melt_ = {.celsius = hotends, .tool = hotend_in_use()};
   still_.reset();
   answers_due_ = 0;
+  if (machine_.tools() > 1) out.push_back({0, canonical::Tool{melt_.tool}});
   if (path_mode_) out.push_back({0, *path_mode_});
   out.push_back({0, limits_});
   if (advance_.advance_s >= 0 || advance_.smooth_s >= 0) out.push_back({0, advance_});
@@ -106,7 +106,7 @@ Result<void, Problem> LiveLines::take(std::string_view line, std::uint32_t numbe
   const gcode::State before = interpreter_.state();
   const Place place = place_;
   const int answers_due = answers_due_;
-  const auto hotend = hotend_celsius_;
+  const Melt melt = melt_;
   const std::size_t first = out.size();
   gcode::Program program(interpreter_, gcode::Program::Use::kLines);
   auto read = program.line(line, number, out);
@@ -141,7 +141,7 @@ Result<void, Problem> LiveLines::take(std::string_view line, std::uint32_t numbe
     answers_due_ = answers_due;
     interpreter_.restore(before);
     place_ = place;
-    hotend_celsius_ = hotend;
+    melt_ = melt;
     out.resize(first);
     return refuse(0, std::move(*words));
   }
@@ -190,6 +190,11 @@ Refused LiveLines::check(const canonical::Command& command) {
     return std::nullopt;
   }
   if (const auto* thermal = std::get_if<canonical::Thermal>(&command)) return check_thermal(*thermal);
+  if (const auto* tool = std::get_if<canonical::Tool>(&command)) {
+    melt_.tool = static_cast<std::uint8_t>(tool->hotend);
+    melt_.hot_e_mm = -1e300;
+    return std::nullopt;
+  }
   if (const auto* shaping = std::get_if<canonical::InputShaping>(&command)) {
     canonical::InputShaping all = shaping_;
     merge_shaping(all, *shaping);
@@ -285,22 +290,27 @@ Refused LiveLines::check_home(const canonical::Home& home) {
   return check_straight(target, home.frame);
 }
 
+std::uint8_t LiveLines::hotend_in_use() const {
+  return static_cast<std::uint8_t>(std::min(interpreter_.state().modal.tool, machine_.tools() - 1));
+}
+
 Refused LiveLines::check_extrusion(const Pose& target) {
-  if (machine_.heater(kFirstHotend) == nullptr || target[kE] - place_.pose[kE] <= kNoExtrusion_mm)
-    return std::nullopt;
-  if (!hotend_celsius_) {
+  const HeaterId id{HeaterKind::kHotend, melt_.tool};
+  if (machine_.heater(id) == nullptr || target[kE] - place_.pose[kE] <= kNoExtrusion_mm) return std::nullopt;
+  const std::optional<double> celsius = melt_.celsius[melt_.tool % kMostOfAKind];
+  if (!celsius) {
     if (!std::exchange(cold_noted_, true))
-      notes_.push_back(say("filament is fed before a hotend temperature is set"));
+      notes_.push_back(say("filament is fed before a %1 temperature is set", heater_words(id)));
     return std::nullopt;
   }
-  if (*hotend_celsius_ >= machine_.thermal.min_extrude_c) {
-    hot_e_mm_ = std::max(hot_e_mm_, target[kE]);
+  if (*celsius >= machine_.thermal.min_extrude_c) {
+    melt_.hot_e_mm = std::max(melt_.hot_e_mm, target[kE]);
     return std::nullopt;
   }
   // As in a job: filament that was taken back goes where it came from.
-  if (target[kE] <= hot_e_mm_ + kNoExtrusion_mm) return std::nullopt;
-  return say("filament would be fed with the hotend at %1; at least %2 is needed",
-             rounded_celsius(*hotend_celsius_), rounded_celsius(machine_.thermal.min_extrude_c));
+  if (target[kE] <= melt_.hot_e_mm + kNoExtrusion_mm) return std::nullopt;
+  return say("filament would be fed with the %1 at %2; at least %3 is needed", heater_words(id),
+             rounded_celsius(*celsius), rounded_celsius(machine_.thermal.min_extrude_c));
 }
 
 Refused LiveLines::check_thermal(const canonical::Thermal& thermal) {
@@ -308,7 +318,8 @@ Refused LiveLines::check_thermal(const canonical::Thermal& thermal) {
   if (auto missing = missing_fan(machine_, thermal); missing && !std::exchange(fan_noted_, true))
     notes_.push_back(std::move(*missing));
   // A cold end after a print is no news: only lines that feed filament afterwards are refused.
-  if (heater_of(thermal) == kFirstHotend) hotend_celsius_ = thermal.value;
+  if (const auto id = heater_of(thermal); id && id->kind == HeaterKind::kHotend)
+    melt_.celsius[id->index % kMostOfAKind] = thermal.value;
   return std::nullopt;
 }
 

@@ -28,8 +28,8 @@ class LiveLines {
   /// The same, with the offsets that were kept since another time.
   void restart(const gcode::WorkOffsets& offsets);
   /// The machine stands at `pose` (Frame::kMachine) and may move from here on. Modal state is kept, also the
-  /// program's E. `hotend_celsius`: its target, if it has one. Appends what is in force to `out`.
-  void begin(const Pose& pose, std::optional<double> hotend_celsius, gcode::CommandBuffer& out);
+  /// program's E. `hotends`: their targets, as far as they are known. Appends what is in force to `out`.
+  void begin(const Pose& pose, const HotendTargets& hotends, gcode::CommandBuffer& out);
   /// Lines that move are refused from here on, until begin().
   void end(Sentence why) { still_ = std::move(why); }
 
@@ -68,6 +68,7 @@ class LiveLines {
     Frame frame = Frame::kMachine;
   };
   void stand_at(const Pose& pose);
+  std::uint8_t hotend_in_use() const;
   std::optional<Sentence> check(const canonical::Command& command);
   std::optional<Sentence> check_straight(const Pose& target, Frame frame);
   std::optional<Sentence> check_arc(const canonical::Arc& arc);
@@ -81,8 +82,11 @@ class LiveLines {
   gcode::Interpreter interpreter_;
   std::optional<Sentence> still_;  ///< why nothing may move
   Place place_;                    ///< where the lines taken so far lead
-  std::optional<double> hotend_celsius_;
-  double hot_e_mm_ = -1e300;  ///< the farthest that filament was fed hot
+  struct Melt {
+    HotendTargets celsius{};
+    std::uint8_t tool = 0;     ///< the hot end in use
+    double hot_e_mm = -1e300;  ///< the farthest that it was fed hot
+  } melt_;
   bool cold_noted_ = false, fan_noted_ = false;
   int answers_due_ = 0;
   canonical::Limits limits_{};  ///< in force

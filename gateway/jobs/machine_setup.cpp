@@ -290,7 +290,7 @@ std::optional<HeaterId> heater_of(const canonical::Thermal& thermal) {
 Sentence heater_words(HeaterId id) {
   switch (id.kind) {
     case HeaterKind::kHotend:
-      return id.index == 0 ? say("hotend") : say("hotend %1", int{id.index});
+      return id.index == 0 ? say("hotend") : say("hotend T%1", int{id.index});
     case HeaterKind::kBed:
       return id.index == 0 ? say("bed") : say("bed %1", int{id.index});
     case HeaterKind::kChamber:

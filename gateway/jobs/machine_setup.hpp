@@ -42,7 +42,7 @@ std::optional<Sentence> wrong_spindle_speed(const SpindleDescription& spindle, d
 
 /// Which heater a canonical command names; none: a fan or an output.
 std::optional<HeaterId> heater_of(const canonical::Thermal& thermal);
-/// "bed", "hotend 1"
+/// "bed", "hotend T1"
 Sentence heater_words(HeaterId id);
 
 /// Why this machine cannot do what is asked of its heaters and outputs; none: it can.

@@ -74,7 +74,7 @@ class Gateway::Core {
   void skip_heating();
   void forget_line_modes();
   const gcode::WorkOffsets& work_offsets() const { return lines_.work_offsets(); }
-  std::optional<double> hotend_found() const { return heat_.hotend_found(); }
+  HotendTargets hotends_found() const { return heat_.hotends_found(); }
   const BedLevel& bed() const { return bed_; }
 
   // core_recovery.cpp
@@ -152,6 +152,7 @@ class Gateway::Core {
   /// stopped because they did not hear the gateway.
   void stop_all(bool fault, bool by_absence = false);
   Done carry_out_at_rest(const canonical::Line& command);
+  Done choose_hotend(int hotend);
   Done level_at_rest(const canonical::Mesh& command, std::uint32_t line);
 
   // What each state does as time passes (core.cpp).

@@ -92,8 +92,7 @@ void Gateway::Core::watch_standby() {
     return;
   }
   if (stands_by_ || now_ - waits_since_ < pause.standby_after) return;
-  const auto target = heat_.hotend_target();
-  if (!target || *target <= pause.standby_c) return;
+  if (heat_.hottest_target() <= pause.standby_c) return;
   if (job.suspended()) {
     if (!heat_.kept()) heat_.keep();
     stands_by_ = true;
@@ -106,7 +105,7 @@ void Gateway::Core::watch_standby() {
 
 Done Gateway::Core::on(command::MoveFilament& asked) {
   using What = command::MoveFilament::What;
-  if (machine_.heater(kFirstHotend) == nullptr) return refused(say("nothing here feeds filament"));
+  if (machine_.heater(heat_.tool()) == nullptr) return refused(say("nothing here feeds filament"));
   if (auto cold = heat_.too_cold()) return refused(std::move(*cold));
   const PauseDescription& pause = machine_.pause;
   const double distance_mm = asked.what == What::kUnload ? -pause.unload_mm

@@ -175,7 +175,7 @@ Done Gateway::Core::on(command::Run& asked) {
     return refused(say("the job cannot be read twice: it is checked before it runs"));
   give_up_job();
   print_.rename(std::move(asked.name));
-  print_.begin_check(std::move(asked.job), heat_.hotend_found(), lines_.work_offsets());
+  print_.begin_check(std::move(asked.job), heat_.hotends_found(), lines_.work_offsets());
   enter(MachineState::kChecking);
   return {};
 }
@@ -189,10 +189,10 @@ Done Gateway::Core::on(command::Hold&) {
 
 Done Gateway::Core::on(command::Resume&) {
   recovery_.commanded();
-  if (const auto celsius = heat_.kept_too_cold();
-      celsius && state_.is(MachineState::kHeld) && heat_hold_.cold())
-    return refused(say("the hotend is set to %1 C: set it to at least %2 C, then resume",
-                       std::lround(*celsius), std::lround(machine_.thermal.min_extrude_c)));
+  if (const auto cold = heat_.kept_too_cold(); cold && state_.is(MachineState::kHeld) && heat_hold_.cold())
+    return refused(say("the %1 is set to %2 C: set it to at least %3 C, then resume",
+                       heater_words(cold->hotend), std::lround(cold->celsius),
+                       std::lround(machine_.thermal.min_extrude_c)));
   if (state_.is(MachineState::kHeld) && !heat_hold_.why().empty() && out_of_order()) {
     heat_.clear_faults();
     heat_hold_.await_mended(now_);
@@ -265,7 +265,7 @@ Done Gateway::Core::on(command::SetTemperature& asked) {
   const bool feeds = state_.is(MachineState::kRunning) && runner_ == &print_.runner() && !runner_->live() &&
                      runner_->feeds();
   // Off is off at any time; the job is held before it feeds cold.
-  if (feeds && asked.heater == kFirstHotend && asked.celsius > 0 && asked.celsius < least)
+  if (feeds && asked.heater == heat_.tool() && asked.celsius > 0 && asked.celsius < least)
     return refused(
         say("the job feeds filament, which needs at least %1 C: hold it first", std::lround(least)));
   heat_idle_since_ = waits_since_ = now_;

@@ -161,7 +161,7 @@ Done Gateway::Core::begin_return() {
   if (auto& left = recovery_.left()) {
     // Checked once more, then read up to its place.
     if (!left->job->rewind()) return refused(say("the interrupted job cannot be read"));
-    print_.begin_check(std::move(left->job), heat_.kept_hotend(), left->state.job->offsets);
+    print_.begin_check(std::move(left->job), heat_.kept_hotends(), left->state.job->offsets);
     enter(MachineState::kChecking);
     return {};
   }

@@ -60,8 +60,8 @@ void Gateway::leave_lines() {
 void Gateway::skip_heating() {
   core_->skip_heating();
 }
-std::optional<double> Gateway::hotend_found() const {
-  return core_->hotend_found();
+HotendTargets Gateway::hotends_found() const {
+  return core_->hotends_found();
 }
 const gcode::WorkOffsets& Gateway::work_offsets() const {
   return core_->work_offsets();

@@ -101,7 +101,7 @@ class Gateway {
   /// Of G54 .. G59.3: lines set them, jobs begin with them, the journal keeps them.
   const gcode::WorkOffsets& work_offsets() const;
   /// What a job finds the first hot end set to, deg C; none: nobody knows.
-  std::optional<double> hotend_found() const;
+  HotendTargets hotends_found() const;
   /// The bed's meshes.
   const BedLevel& bed() const;
   static constexpr std::size_t kLineRoom = 32;

@@ -5,13 +5,13 @@ namespace {
 constexpr BusTime kProgressPeriod = std::chrono::milliseconds{250};
 }  // namespace
 
-void PrintJob::begin_check(std::unique_ptr<ByteSource> source, std::optional<double> hotend_celsius,
+void PrintJob::begin_check(std::unique_ptr<ByteSource> source, const HotendTargets& hotends,
                            const gcode::WorkOffsets& offsets) {
   source_ = std::make_unique<HashedSource>(std::move(source));
   offsets_ = offsets;
   told_ = 0;
   JobCheck::Options options;
-  if (hotend_celsius) options.hotend_celsius = *hotend_celsius;
+  options.hotend_celsius = hotends;
   preflight_ = std::make_unique<Preflight>(machine_, kinematics_, *source_, kinematics_.bed_reference(),
                                            options, offsets_);
 }

@@ -35,8 +35,9 @@ class PrintJob {
   void forget_name() { name_.clear(); }
 
   // The check.
-  /// Of a text at its beginning, which begins in `offsets`. `hotend_celsius`: its target, if it has one.
-  void begin_check(std::unique_ptr<ByteSource> source, std::optional<double> hotend_celsius,
+  /// Of a text at its beginning, which begins in `offsets`. `hotends`: their targets, as far as they are
+  /// known.
+  void begin_check(std::unique_ptr<ByteSource> source, const HotendTargets& hotends,
                    const gcode::WorkOffsets& offsets);
   /// Worth about `budget` lines; what is found is told. True: done, errors() counts.
   bool check(BusTime now, int budget);

@@ -123,27 +123,57 @@ bool Heat::heats() const {
   });
 }
 
-std::optional<double> Heat::hotend_target() const {
-  const double celsius = devices_.heater(kFirstHotend).target_celsius;
-  return celsius > 0 ? std::optional(celsius) : std::nullopt;
+HotendTargets Heat::hotends(const std::function<std::optional<double>(const HeaterDescription&)>& of) const {
+  HotendTargets all{};
+  for (const HeaterDescription& h : machine_.heaters)
+    if (h.kind == HeaterKind::kHotend && h.index < all.size()) all[h.index] = of(h);
+  return all;
 }
 
-std::optional<double> Heat::hotend_found() const {
-  const HeaterDescription* hotend = machine_.heater(kFirstHotend);
-  const auto target = hotend_target();
-  return target || hotend == nullptr || !hotend->place.on_node() ? target : 0;
+HotendTargets Heat::hotend_targets() const {
+  return hotends([this](const HeaterDescription& h) {
+    const double celsius = target(h.id());
+    return celsius > 0 ? std::optional(celsius) : std::nullopt;
+  });
+}
+
+double Heat::hottest_target() const {
+  double hottest = 0;
+  for (const std::optional<double>& celsius : hotend_targets())
+    hottest = std::max(hottest, celsius.value_or(0));
+  return hottest;
+}
+
+HotendTargets Heat::hotends_found() const {
+  return hotends([this](const HeaterDescription& h) {
+    const double celsius = target(h.id());
+    return celsius > 0 || h.place.on_node() ? std::optional(celsius) : std::nullopt;
+  });
+}
+
+HotendTargets Heat::kept_hotends() const {
+  return hotends([this](const HeaterDescription& h) {
+    const double celsius = kept_ ? kept_->heater(h.id()) : 0;
+    return celsius > 0 ? std::optional(celsius) : std::nullopt;
+  });
+}
+
+void Heat::select(int hotend) {
+  const auto chosen = static_cast<std::uint8_t>(hotend % kMostOfAKind);
+  if (chosen == tool_) return;
+  devices_.feed_ahead(tool(), {});
+  tool_ = chosen;
 }
 
 void Heat::feed_ahead(const FlowAhead& mm_per_s) {
-  const HeaterDescription* hotend = machine_.heater(kFirstHotend);
+  const HeaterDescription* hotend = machine_.heater(tool());
   if (hotend == nullptr) return;
-  const double target = devices_.heater(kFirstHotend).target_celsius;
   const double radius = machine_.gcode.filament_diameter_mm / 2;
   const double j_per_mm = hotend->wiring.filament_j_per_mm3_k * std::numbers::pi * radius * radius *
-                          std::max(0.0, target - machine_.thermal.ambient_c);
+                          std::max(0.0, target(tool()) - machine_.thermal.ambient_c);
   FlowAhead watts{};
   for (std::size_t i = 0; i < watts.size(); ++i) watts[i] = std::max(0.0, mm_per_s[i]) * j_per_mm;
-  devices_.feed_ahead(kFirstHotend, watts);
+  devices_.feed_ahead(tool(), watts);
 }
 
 void Heat::stand_by(double celsius) {
@@ -154,17 +184,16 @@ void Heat::stand_by(double celsius) {
 }
 
 std::optional<Sentence> Heat::too_cold() const {
-  const double celsius = devices_.heater(kFirstHotend).actual_celsius;
-  if (machine_.heater(kFirstHotend) == nullptr || celsius >= machine_.thermal.min_extrude_c)
-    return std::nullopt;
-  return say("the hotend is too cold to feed filament: %1 C", std::lround(celsius));
+  const double celsius = devices_.heater(tool()).actual_celsius;
+  if (machine_.heater(tool()) == nullptr || celsius >= machine_.thermal.min_extrude_c) return std::nullopt;
+  return say("the %1 is too cold to feed filament: %2 C", heater_words(tool()), std::lround(celsius));
 }
 
 bool Heat::melts() const {
-  const HeaterDescription* hotend = machine_.heater(kFirstHotend);
+  const HeaterDescription* hotend = machine_.heater(tool());
   if (hotend == nullptr) return true;
   const double least = machine_.thermal.min_extrude_c;
-  const HeaterStatus status = devices_.heater(kFirstHotend);
+  const HeaterStatus status = devices_.heater(tool());
   // One that is turned down falls on while the path stops; one that is held just there swings.
   const double limit = status.target_celsius < least
                            ? least + kFallsMeanwhile
@@ -173,8 +202,8 @@ bool Heat::melts() const {
 }
 
 DeviceFault Heat::feeds_cold() const {
-  const HeaterDescription* hotend = machine_.heater(kFirstHotend);
-  const HeaterStatus status = devices_.heater(kFirstHotend);
+  const HeaterDescription* hotend = machine_.heater(tool());
+  const HeaterStatus status = devices_.heater(tool());
   const auto least = std::lround(machine_.thermal.min_extrude_c);
   DeviceFault fault;
   fault.device = "heater." + (hotend != nullptr ? hotend->name : std::string());
@@ -188,18 +217,21 @@ DeviceFault Heat::feeds_cold() const {
   return fault;
 }
 
-std::optional<double> Heat::kept_too_cold() const {
-  const double celsius = kept_ ? kept_->heater(kFirstHotend) : machine_.thermal.min_extrude_c;
-  return celsius < machine_.thermal.min_extrude_c ? std::optional(celsius) : std::nullopt;
+std::optional<Heat::Cold> Heat::kept_too_cold() const {
+  if (!kept_) return std::nullopt;
+  const HeaterId hotend{HeaterKind::kHotend, kept_->tool()};
+  const double celsius = kept_->heater(hotend);
+  return celsius < machine_.thermal.min_extrude_c ? std::optional(Cold{hotend, celsius}) : std::nullopt;
 }
 
 bool Heat::melts_by_node() const {
-  const HeaterDescription* hotend = machine_.heater(kFirstHotend);
+  const HeaterDescription* hotend = machine_.heater(tool());
   return hotend != nullptr && hotend->place.on_node();
 }
 
 void Heat::report(MachineStatus& status) const {
   status.heaters = devices_.heaters();
+  status.tool = tool();
   status.fans = devices_.fans();
   status.outputs = devices_.outputs();
   status.inputs = devices_.inputs();
@@ -215,6 +247,7 @@ void Heat::report(MachineStatus& status) const {
 
 void Heat::begin_job() {
   kept_.reset();
+  select(0);
   noted_ = {};
 }
 
@@ -230,6 +263,7 @@ journal::Heat Heat::told_now() const {
   for (const FanDescription& f : machine_.fans) heat.fan(f.index) = devices_.fan(f.index);
   for (const OutputDescription& o : machine_.outputs) heat.output(o.index) = devices_.output(o.index);
   heat.spindle_rpm = devices_.spindle().target_rpm;
+  heat.set_tool(tool_);
   return heat;
 }
 
@@ -250,11 +284,6 @@ bool Heat::kept_heat() const {
          });
 }
 
-std::optional<double> Heat::kept_hotend() const {
-  if (!kept_ || kept_->heater(kFirstHotend) <= 0) return std::nullopt;
-  return kept_->heater(kFirstHotend);
-}
-
 bool Heat::start_kept_spindle() {
   if (!kept_ || kept_->spindle_rpm == 0) return false;
   devices_.turn_spindle(kept_->spindle_rpm);
@@ -264,6 +293,7 @@ bool Heat::start_kept_spindle() {
 /// Beds first: they take longest and hold the part; then chambers, then hot ends, then the spindle.
 std::vector<canonical::Line> Heat::lead_back() {
   const journal::Heat wanted = kept_.value_or(noted_);
+  select(wanted.tool());
   for (const FanDescription& f : machine_.fans) devices_.blow(f.index, wanted.fan(f.index));
   for (const OutputDescription& o : machine_.outputs) devices_.put_out(o.index, wanted.output(o.index));
   std::vector<canonical::Line> commands;

@@ -2,6 +2,7 @@
 // Heaters, fans, outputs and spindle as the machine uses them: by command, by a job in its order, and again
 // when an interrupted job goes on. The one place that tells devices what to do.
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -46,8 +47,10 @@ class Heat {
   void stop_spindle() { devices_.turn_spindle(0); }
   enum class Beds : std::uint8_t { kOff, kStay };
   void heaters_off(Beds beds = Beds::kOff);
-  /// The filament that will be fed, mm/s: means over steps of kFlowAheadStep, the first from now. Of the
-  /// first hot end.
+  /// The hot end that melts what is fed: T0, until a job, a line or a hand chooses another.
+  HeaterId tool() const { return {HeaterKind::kHotend, tool_}; }
+  void select(int hotend);
+  /// The filament that will be fed, mm/s: means over steps of kFlowAheadStep, the first from now.
   void feed_ahead(const FlowAhead& mm_per_s);
   /// Where the extruder is now, mm.
   void follow_extruder(double mm) { devices_.follow_extruder(mm); }
@@ -58,11 +61,13 @@ class Heat {
   bool spindle_on() const { return devices_.spindle().target_rpm != 0; }
   std::optional<SpindleAngle> spindle_angle() const { return devices_.spindle().angle; }
   bool spindle_at_speed() const { return devices_.spindle().at_speed(); }
-  /// Of the first hot end, deg C; none: off.
-  std::optional<double> hotend_target() const;
-  /// What a job finds it set to: 0 when it is off. None: nobody knows, a simulated one stands for heat that
-  /// others look after.
-  std::optional<double> hotend_found() const;
+  /// Those that are not off.
+  HotendTargets hotend_targets() const;
+  /// Of the hot end that is to be hottest, deg C; 0: all are off.
+  double hottest_target() const;
+  /// What a job finds them set to: 0 where one is off. None: nobody knows, a simulated one stands for heat
+  /// that others look after.
+  HotendTargets hotends_found() const;
   /// Hot ends that are hotter are to be at `celsius`.
   void stand_by(double celsius);
   /// Why no filament may be fed now; none: it may.
@@ -71,9 +76,13 @@ class Heat {
   bool melts() const;
   /// What to say of a hot end that does not.
   DeviceFault feeds_cold() const;
-  /// The job that is kept feeds filament with the first hot end as cold as this; none: it melts.
-  std::optional<double> kept_too_cold() const;
-  /// What the first hot end's node does not let anybody believe: that others look after its heat.
+  /// The job that is kept feeds filament with its hot end as cold as this; none: it melts.
+  struct Cold {
+    HeaterId hotend;
+    double celsius = 0;
+  };
+  std::optional<Cold> kept_too_cold() const;
+  /// What the hot end's node does not let anybody believe: that others look after its heat.
   bool melts_by_node() const;
   double target(HeaterId heater) const { return devices_.heater(heater).target_celsius; }
   void report(MachineStatus& status) const;
@@ -105,8 +114,10 @@ class Heat {
   void forget_kept() { kept_.reset(); }
   /// The job that goes on wants heat that is off.
   bool kept_heat() const;
-  /// The first hot end's of the job that goes on, deg C; none: off, or nothing is kept.
-  std::optional<double> kept_hotend() const;
+  /// The hot ends' of the job that goes on; none: off, or nothing is kept.
+  HotendTargets kept_hotends() const;
+  /// The hot end that the job under way uses, whatever was chosen since it was interrupted.
+  std::uint8_t tool_of_job() const { return kept_ ? kept_->tool() : tool_; }
   /// The spindle turns again as the job wants it; false: it wants none.
   bool start_kept_spindle();
   /// What leads back to it: waits for heaters and spindle. Fans and outputs are as they were at once.
@@ -116,11 +127,13 @@ class Heat {
 
  private:
   journal::Heat told_now() const;
+  HotendTargets hotends(const std::function<std::optional<double>(const HeaterDescription&)>& of) const;
 
   const MachineDescription& machine_;
   Devices& devices_;
   std::optional<journal::Heat> kept_;
   journal::Heat noted_;
+  std::uint8_t tool_ = 0;
 };
 
 /// One wait of a job for a temperature: over when it was within the window for the settling time. It goes

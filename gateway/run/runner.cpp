@@ -62,7 +62,8 @@ void Runner::begin() {
   probing_ = probe_cut_ = false;
   probe_wrong_.reset();
   follower_.follow(0);
-  hold_waits_ = thread_over_ = has_melted_ = false;
+  hold_waits_ = thread_over_ = false;
+  has_melted_ = {};
   molten_mm_ = start_[kE];
   thread_lost_.reset();
   answers_.clear();
@@ -325,7 +326,7 @@ Runner::Outcome Runner::take(BusTime now, JobPipeline::Step step) {
     case Step::kMelt:
       if (!heat_.too_cold()) return Outcome::kBusy;
       wait_ = Wait::kMelt;
-      doing_ = say("waiting for the %1 at %2", heater_words(kFirstHotend),
+      doing_ = say("waiting for the %1 at %2", heater_words(heat_.tool()),
                    printed("%.0f C", machine_.thermal.min_extrude_c));
       return Outcome::kBusy;
     case Step::kProbed:

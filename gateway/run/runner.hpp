@@ -2,6 +2,7 @@
 // Carries a job or a single move out: takes the pipeline's steps, streams motion, executes what stands
 // between runs, and says at which rate path time may run.
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <deque>
@@ -231,6 +232,7 @@ class Runner {
   Outcome probe_outcome(BusTime now);
   std::optional<Failure> wrong_after_probe(JobPipeline::Step step);
   /// nullptr: nothing is to be waited for.
+  void change_tool(int hotend);
   const HeaterDescription* awaited(const canonical::Thermal& thermal) const;
   void begin_heating(const canonical::Thermal& thermal);
 
@@ -262,8 +264,9 @@ class Runner {
   std::uint64_t waits_done_ = 0, waits_replayed_ = 0;
   bool stop_asked_ = false;
   bool filament_change_ = false;  ///< the last pause was for one
-  bool has_melted_ = false;       ///< the hot end was hot while this moved
-  double molten_mm_ = 0;          ///< the farthest that filament was fed hot, by the plan
+  /// Each hot end was hot while this moved and used it.
+  std::array<bool, kMostOfAKind> has_melted_{};
+  double molten_mm_ = 0;  ///< the farthest that filament was fed hot into the one in use, by the plan
   Wait wait_ = Wait::kNone;
   std::deque<Event> events_;
   HeatWait heating_;

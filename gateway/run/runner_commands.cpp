@@ -150,6 +150,8 @@ Runner::Outcome Runner::barrier(BusTime now) {
       wait_ = Wait::kSpindle;
       doing_ = say("waiting for the spindle");
     }
+  } else if (const auto* tool = std::get_if<canonical::Tool>(&line.command)) {
+    change_tool(tool->hotend);
   } else if (const auto* sync = std::get_if<canonical::SpindleSync>(&line.command)) {
     begin_thread(*sync);
   } else if (std::holds_alternative<canonical::Probe>(line.command)) {

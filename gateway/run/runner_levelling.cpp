@@ -57,8 +57,9 @@ bool Runner::stand_at(Frame frame, const Pose& pose) {
 /// The pre-flight did not know what is known now. A live line's is checked before it is taken.
 void Runner::check_what_follows() {
   if (live_ || check_) return;
-  check_ = std::make_unique<JobCheck>(machine_, kinematics_,
-                                      JobCheck::Options{.hotend_celsius = heat_.hotend_target()});
+  check_ = std::make_unique<JobCheck>(
+      machine_, kinematics_,
+      JobCheck::Options{.hotend_celsius = heat_.hotend_targets(), .tool = heat_.tool_of_job()});
 }
 
 /// Of a job that is read again: the next thing that it had found out at a barrier. false: it had not come

@@ -26,12 +26,13 @@ bool Runner::feeds_cold(BusTime now) {
   };
   const auto here_mm = fed_mm(tau);
   if (!here_mm) return false;
+  bool& has_melted = has_melted_[heat_.tool().index];
   if (heat_.melts()) {
-    has_melted_ = true;
+    has_melted = true;
     molten_mm_ = std::max(molten_mm_, *here_mm);
     return false;
   }
-  if (!has_melted_ && !heat_.melts_by_node()) return false;
+  if (!has_melted && !heat_.melts_by_node()) return false;
   const std::chrono::duration<double> look = machine_.stop.hold_ramp + kReaction;
   for (int i = 0; i <= kLooks; ++i) {
     const auto ahead = fed_mm(tau + std::chrono::duration_cast<PathTime>(look * i / kLooks));
@@ -39,6 +40,12 @@ bool Runner::feeds_cold(BusTime now) {
     if (*ahead > molten_mm_ + kFedBack_mm) return true;
   }
   return false;
+}
+
+/// At rest. What the one before was fed is nothing that may return into this one.
+void Runner::change_tool(int hotend) {
+  heat_.select(hotend);
+  molten_mm_ = rest_pose().pose[kE] - feed_.extruder_shift_mm();
 }
 
 }  // namespace kinebus

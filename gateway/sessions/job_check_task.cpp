@@ -13,14 +13,14 @@ constexpr int kLinesPerSlice = 2000;
 
 JobCheckTask::JobCheckTask(JobStore& store, const MachineDescription& machine, std::string machine_mark,
                            std::string name, const gcode::WorkOffsets& offsets, const MeshGrid* mesh,
-                           std::optional<double> hotend_celsius)
+                           const HotendTargets& hotends)
     : store_(store),
       machine_(machine),
       machine_mark_(std::move(machine_mark)),
       name_(std::move(name)),
       offsets_(offsets),
       mesh_(mesh != nullptr ? std::optional(*mesh) : std::nullopt),
-      hotend_celsius_(hotend_celsius) {}
+      hotends_(hotends) {}
 
 void JobCheckTask::run(Worker& worker, std::function<void(double)> progress,
                        std::function<void(const Found&)> done) {
@@ -59,7 +59,7 @@ void JobCheckTask::slice() {
     kinematics_ = std::make_unique<LevelledKinematics>(std::move(*kinematics));
     if (mesh_) kinematics_->set_mesh(std::make_shared<const BedMesh>(*mesh_));
     JobCheck::Options options;
-    if (hotend_celsius_) options.hotend_celsius = *hotend_celsius_;
+    options.hotend_celsius = hotends_;
     preflight_ = std::make_unique<Preflight>(machine_, *kinematics_, *source_, kinematics_->bed_reference(),
                                              options, offsets_);
   }

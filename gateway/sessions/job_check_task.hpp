@@ -16,11 +16,11 @@ namespace kinebus {
 class JobCheckTask : public std::enable_shared_from_this<JobCheckTask> {
  public:
   using Found = Result<joblink::PreflightResult, StoreError>;
-  /// `offsets`, `mesh`, `hotend_celsius` (Heat::hotend_found()): the machine's as they are now (nullptr:
+  /// `offsets`, `mesh`, `hotends` (Heat::hotends_found()): the machine's as they are now (nullptr:
   /// none). Only what was found with all offsets 0, without a mesh and by the job's own heat is kept in the
   /// store.
   JobCheckTask(JobStore& store, const MachineDescription& machine, std::string machine_mark, std::string name,
-               const gcode::WorkOffsets& offsets, const MeshGrid* mesh, std::optional<double> hotend_celsius);
+               const gcode::WorkOffsets& offsets, const MeshGrid* mesh, const HotendTargets& hotends);
   /// `progress` (0..1, some times a second of work) and `done` are called within the loop.
   void run(Worker& worker, std::function<void(double)> progress, std::function<void(const Found&)> done);
 
@@ -33,7 +33,7 @@ class JobCheckTask : public std::enable_shared_from_this<JobCheckTask> {
   std::string machine_mark_, name_, hash_;
   gcode::WorkOffsets offsets_;
   std::optional<MeshGrid> mesh_;
-  std::optional<double> hotend_celsius_;
+  HotendTargets hotends_;
   std::function<void(double)> progress_;
   std::function<void(const Found&)> done_;
 

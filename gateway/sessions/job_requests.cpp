@@ -235,7 +235,7 @@ void JobRequests::check(const Asker& asker, const std::string& name) {
         asker, problem(joblink::ERROR_BUSY, name, say("too many jobs are being checked: ask again later")));
   auto task = std::make_shared<JobCheckTask>(
       server_.store_, server_.machine_, server_.options_.machine_mark, name, server_.gateway_.work_offsets(),
-      server_.gateway_.bed().in_force(), server_.gateway_.hotend_found());
+      server_.gateway_.bed().in_force(), server_.gateway_.hotends_found());
   server_.checks_.push_back(task);
   task->run(
       server_.worker_,

@@ -90,6 +90,7 @@ struct MachineStatus {
   Pose work_offset{};             ///< of it: work zero in table coordinates, mm and rad
 
   std::vector<NamedHeaterStatus> heaters;
+  HeaterId tool{};  ///< the hot end in use
   std::vector<OutputStatus> fans, outputs;
   std::vector<InputStatus> inputs;
   std::vector<SensorStatus> sensors;

@@ -19,7 +19,7 @@ std::string temperature_text(const MachineStatus& status) {
   };
   const auto& all = status.heaters;
   std::string text =
-      temperature_of("T", status.heater(kFirstHotend)) + temperature_of("B", status.heater(kFirstBed));
+      temperature_of("T", status.heater(status.tool)) + temperature_of("B", status.heater(kFirstBed));
   if (const auto chamber = std::find_if(all.begin(), all.end(), is(HeaterKind::kChamber));
       chamber != all.end())
     text += temperature_of("C", *chamber);
@@ -30,7 +30,7 @@ std::string temperature_text(const MachineStatus& status) {
     constexpr double kMarlinFull = 127;
     return std::lround(kMarlinFull * std::clamp(status.heater(id).power.value_or(0), 0.0, 1.0));
   };
-  return text + "@:" + std::to_string(power(kFirstHotend)) + " B@:" + std::to_string(power(kFirstBed));
+  return text + "@:" + std::to_string(power(status.tool)) + " B@:" + std::to_string(power(kFirstBed));
 }
 
 }  // namespace kinebus

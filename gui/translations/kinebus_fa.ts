@@ -733,12 +733,12 @@
         <translation>این درگاه با ماشین درون‌ساخت کار می‌کند: با --machine FILE آغازش کنید</translation>
     </message>
     <message>
-        <source>filament is fed before the job has set a hotend temperature (M104)</source>
-        <translation>پیش از آنکه کار دمای نازل را بدهد (M104) فیلامنت رانده می‌شود</translation>
+        <source>filament is fed before the job has set a %1 temperature (M104)</source>
+        <translation>پیش از آنکه کار دمای %1 را بدهد (M104) فیلامنت رانده می‌شود</translation>
     </message>
     <message>
-        <source>filament is fed with the hotend at %1; at least %2 is needed</source>
-        <translation>فیلامنت با نازل %1 رانده می‌شود؛ دست‌کم %2 لازم است</translation>
+        <source>filament is fed with the %1 at %2; at least %3 is needed</source>
+        <translation>فیلامنت با %1 در %2 رانده می‌شود؛ دست‌کم %3 لازم است</translation>
     </message>
     <message>
         <source>M112 stops the machine here</source>
@@ -813,12 +813,12 @@
         <translation>کمان بیش از آن می‌چرخد که بررسی شود</translation>
     </message>
     <message>
-        <source>filament is fed before a hotend temperature is set</source>
-        <translation>پیش از تعیین دمای نازل فیلامنت رانده می‌شود</translation>
+        <source>filament is fed before a %1 temperature is set</source>
+        <translation>پیش از تعیین دمای %1 فیلامنت رانده می‌شود</translation>
     </message>
     <message>
-        <source>filament would be fed with the hotend at %1; at least %2 is needed</source>
-        <translation>فیلامنت با نازل %1 رانده می‌شد؛ دست‌کم %2 لازم است</translation>
+        <source>filament would be fed with the %1 at %2; at least %3 is needed</source>
+        <translation>فیلامنت با %1 در %2 رانده می‌شد؛ دست‌کم %3 لازم است</translation>
     </message>
     <message>
         <source>this machine has no spindle</source>
@@ -1517,20 +1517,20 @@
         <translation>%1 خاموش شد: چیزی منتظر آن نمی‌ماند</translation>
     </message>
     <message>
-        <source>the hotend is set to %1 C: set it to at least %2 C, then resume</source>
-        <translation>نازل روی %1 °C تنظیم شده است: آن را دست‌کم روی %2 °C بگذارید، سپس ادامه دهید</translation>
+        <source>the %1 is set to %2 C: set it to at least %3 C, then resume</source>
+        <translation>%1 روی %2 °C تنظیم شده است: آن را دست‌کم روی %3 °C بگذارید، سپس ادامه دهید</translation>
     </message>
     <message>
         <source>the job feeds filament, which needs at least %1 C: hold it first</source>
         <translation>کار فیلامنت می‌راند و این دست‌کم %1 °C می‌خواهد: نخست آن را نگه دارید</translation>
     </message>
     <message>
-        <source>filament is fed before the job has set a hotend temperature (M104): it runs only while the hotend is set to at least %1</source>
-        <translation>پیش از آنکه کار دمای نازل را بدهد (M104) فیلامنت رانده می‌شود: تنها وقتی اجرا می‌شود که نازل دست‌کم روی %1 تنظیم باشد</translation>
+        <source>filament is fed before the job has set a %1 temperature (M104): it runs only while the %1 is set to at least %2</source>
+        <translation>پیش از آنکه کار دمای %1 را بدهد (M104) فیلامنت رانده می‌شود: تنها وقتی اجرا می‌شود که %1 دست‌کم روی %2 تنظیم باشد</translation>
     </message>
     <message>
-        <source>the hotend is too cold to feed filament: %1 C</source>
-        <translation>نازل برای راندن فیلامنت بسیار سرد است: %1 °C</translation>
+        <source>the %1 is too cold to feed filament: %2 C</source>
+        <translation>%1 برای راندن فیلامنت بسیار سرد است: %2 °C</translation>
     </message>
     <message>
         <source>the job cannot be read twice: it is checked before it runs</source>
@@ -2109,8 +2109,12 @@
         <translation>مقدار S یک خروجی از 0 تا 255 است</translation>
     </message>
     <message>
-        <source>hotend %1</source>
-        <translation>نازل %1</translation>
+        <source>a job is under way: it chooses its tools</source>
+        <translation>کاری در جریان است: ابزارهایش را خودش برمی‌گزیند</translation>
+    </message>
+    <message>
+        <source>hotend T%1</source>
+        <translation>نازل T%1</translation>
     </message>
     <message>
         <source>bed %1</source>

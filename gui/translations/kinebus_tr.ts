@@ -733,12 +733,12 @@
         <translation>bu ağ geçidi yerleşik makinesiyle çalışıyor: --machine DOSYA ile başlatın</translation>
     </message>
     <message>
-        <source>filament is fed before the job has set a hotend temperature (M104)</source>
-        <translation>iş nozul sıcaklığını vermeden (M104) filament sürüyor</translation>
+        <source>filament is fed before the job has set a %1 temperature (M104)</source>
+        <translation>iş %1 sıcaklığını vermeden (M104) filament sürüyor</translation>
     </message>
     <message>
-        <source>filament is fed with the hotend at %1; at least %2 is needed</source>
-        <translation>nozul %1 iken filament sürülüyor; en az %2 gerekir</translation>
+        <source>filament is fed with the %1 at %2; at least %3 is needed</source>
+        <translation>%1 %2 iken filament sürülüyor; en az %3 gerekir</translation>
     </message>
     <message>
         <source>M112 stops the machine here</source>
@@ -813,12 +813,12 @@
         <translation>yay kontrol edilemeyecek kadar çok dönüyor</translation>
     </message>
     <message>
-        <source>filament is fed before a hotend temperature is set</source>
-        <translation>nozul sıcaklığı verilmeden filament sürülüyor</translation>
+        <source>filament is fed before a %1 temperature is set</source>
+        <translation>%1 sıcaklığı verilmeden filament sürülüyor</translation>
     </message>
     <message>
-        <source>filament would be fed with the hotend at %1; at least %2 is needed</source>
-        <translation>nozul %1 iken filament sürülürdü; en az %2 gerekir</translation>
+        <source>filament would be fed with the %1 at %2; at least %3 is needed</source>
+        <translation>%1 %2 iken filament sürülürdü; en az %3 gerekir</translation>
     </message>
     <message>
         <source>this machine has no spindle</source>
@@ -1517,20 +1517,20 @@
         <translation>%1 kapatıldı: hiçbir şey onu beklemiyor</translation>
     </message>
     <message>
-        <source>the hotend is set to %1 C: set it to at least %2 C, then resume</source>
-        <translation>nozul %1 °C’ye ayarlı: en az %2 °C’ye ayarlayın, sonra sürdürün</translation>
+        <source>the %1 is set to %2 C: set it to at least %3 C, then resume</source>
+        <translation>%1 %2 °C’ye ayarlı: en az %3 °C’ye ayarlayın, sonra sürdürün</translation>
     </message>
     <message>
         <source>the job feeds filament, which needs at least %1 C: hold it first</source>
         <translation>iş filament sürüyor, bunun için en az %1 °C gerekir: önce işi bekletin</translation>
     </message>
     <message>
-        <source>filament is fed before the job has set a hotend temperature (M104): it runs only while the hotend is set to at least %1</source>
-        <translation>iş nozul sıcaklığını vermeden (M104) filament sürüyor: ancak nozul en az %1’ye ayarlıyken yürür</translation>
+        <source>filament is fed before the job has set a %1 temperature (M104): it runs only while the %1 is set to at least %2</source>
+        <translation>iş %1 sıcaklığını vermeden (M104) filament sürüyor: ancak %1 en az %2’ye ayarlıyken yürür</translation>
     </message>
     <message>
-        <source>the hotend is too cold to feed filament: %1 C</source>
-        <translation>nozul filament sürmek için çok soğuk: %1 °C</translation>
+        <source>the %1 is too cold to feed filament: %2 C</source>
+        <translation>%1 filament sürmek için çok soğuk: %2 °C</translation>
     </message>
     <message>
         <source>the job cannot be read twice: it is checked before it runs</source>
@@ -2109,8 +2109,12 @@
         <translation>bir çıkışın değeri S 0 ile 255 arasındadır</translation>
     </message>
     <message>
-        <source>hotend %1</source>
-        <translation>nozul %1</translation>
+        <source>a job is under way: it chooses its tools</source>
+        <translation>bir iş sürüyor: takımlarını kendi seçer</translation>
+    </message>
+    <message>
+        <source>hotend T%1</source>
+        <translation>nozul T%1</translation>
     </message>
     <message>
         <source>bed %1</source>

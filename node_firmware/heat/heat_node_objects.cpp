@@ -25,11 +25,11 @@ std::int32_t milli(std::int64_t tenths_of_a_degree) {
 bool is_sensor_setting(std::uint16_t index) {
   return (index >= kSensorPath.index && index <= kHighestPlausible.index) || index == kSensorType.index;
 }
-/// What safety rests on.
+/// What safety rests on. Which heater the flow is of is none of it: that changes with the tool of a job, and
+/// power told for a heater stays within what its own watch and limit allow.
 bool is_setting(std::uint16_t index) {
   return is_sensor_setting(index) || (index >= kHeaterSensor.index && index <= kSafeTime.index) ||
-         index == kFlowHeater.index || index == kFlowLead.index ||
-         (index >= kFanFunction.index && index <= kFanPulses.index) ||
+         index == kFlowLead.index || (index >= kFanFunction.index && index <= kFanPulses.index) ||
          (index >= kFilamentKind.index && index <= kFilamentLeast.index) || index == kMasterLost.index ||
          index == kPinProbe.index || (index >= kProportionalBand.index && index <= kDerivativeTime.index);
 }

@@ -26,7 +26,7 @@ void HeatRecord::on_sample(double job_s, const Sample& sample, const Gateway& ga
   if (sample.time >= next_look_) {
     next_look_ = sample.time + kLook;
     const MachineStatus status = gateway.status();
-    target_c_ = status.heater(kFirstHotend).target_celsius;
+    target_c_ = status.heater(status.tool).target_celsius;
     for (std::size_t i = 0; i < std::min(status.heaters.size(), PlotData::kHeaters); ++i) {
       const HeaterStatus& heater = status.heaters[i];
       heat_.target_c[i] = static_cast<float>(heater.target_celsius);

@@ -131,6 +131,9 @@ class Core {
   /// P of G4 and of canned cycles.
   double dwell_s(double p) const;
   bool change_tool();
+  /// Which of the machine's hot ends M104 means, and what is fed.
+  int hotend_in_use() const;
+  void tell_hotend(int before);
   canonical::PathMode path_mode() const;
   bool set_path_mode(Code code);
 

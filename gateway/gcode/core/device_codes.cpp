@@ -33,7 +33,7 @@ double Core::target_of(const canonical::Thermal& thermal) const {
 bool Core::tool_temperature(char tool_letter) {
   canonical::Thermal command;
   command.what = canonical::Thermal::What::kHotend;
-  command.index = std::min(state_.modal.tool, options_.hotends - 1);
+  command.index = hotend_in_use();
   if (!take_integer(tool_letter, 0, options_.hotends - 1, command.index)) return false;
   const bool given = has('S');
   if (given && !take('S', command.value)) return false;
@@ -92,7 +92,7 @@ bool Core::thermal(Code code) {
     return true;
   }
   if (command.what == What::kHotend) {
-    command.index = std::min(state_.modal.tool, options_.hotends - 1);
+    command.index = hotend_in_use();
     if (!take_integer('T', 0, options_.hotends - 1, command.index)) return false;
   } else if (!by_p && !take_integer('P', 0, 7, command.index)) {
     return false;

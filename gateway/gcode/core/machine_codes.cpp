@@ -49,7 +49,9 @@ bool Core::run_machine_code(Code code) {
       int tool = 0;
       if (!has('Q')) return fail(code.column, say("M61 needs the tool Q"));
       if (!take_integer('Q', 0, 99999, tool)) return false;
+      const int before = hotend_in_use();
       state_.modal.tool = state_.modal.tool_in_spindle = tool;
+      tell_hotend(before);
       return true;
     }
     case 62:

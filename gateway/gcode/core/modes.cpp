@@ -36,7 +36,9 @@ bool Core::run_modes() {
                     last > 0
                         ? say("the machine has no such tool: the last is T%1", last)
                         : say("the machine has one tool, T0; where T1 and T2 turned axes, write A and C"));
+      const int before = hotend_in_use();
       if (!take_integer('T', 0, last, m.tool)) return false;
+      tell_hotend(before);
     }
     // What a change of tools does there: P in RepRapFirmware, S L D in others.
     if (block_.groups == 0 && block_.m_count == 0)
@@ -65,6 +67,14 @@ bool Core::run_modes() {
   if (block_.has(GGroup::kCutter) && block_.code(GGroup::kCutter).number != 400)
     return cutter_on(block_.code(GGroup::kCutter));
   return true;
+}
+
+int Core::hotend_in_use() const {
+  return std::min(state_.modal.tool, options_.hotends - 1);
+}
+
+void Core::tell_hotend(int before) {
+  if (hotend_in_use() != before) emit(canonical::Tool{hotend_in_use()});
 }
 
 bool Core::change_tool() {

@@ -57,7 +57,7 @@ struct Override {
 /// Records name a target by its place here.
 struct Heat {
   static constexpr std::size_t kFans = kHeaterKinds * kMostOfAKind, kOutputs = kFans + kMostOfAKind,
-                               kSlots = kOutputs + kMostOfAKind;
+                               kTool = kOutputs + kMostOfAKind, kSlots = kTool + 1;
   std::array<double, kSlots> targets{};
   double spindle_rpm = 0;
 
@@ -67,6 +67,12 @@ struct Heat {
   double fan(std::uint8_t index) const { return targets[kFans + index % kMostOfAKind]; }
   double& output(std::uint8_t index) { return targets[kOutputs + index % kMostOfAKind]; }
   double output(std::uint8_t index) const { return targets[kOutputs + index % kMostOfAKind]; }
+  /// The hot end in use.
+  std::uint8_t tool() const {
+    const double told = targets[kTool];
+    return told > 0 && told < kMostOfAKind ? static_cast<std::uint8_t>(told) : 0;
+  }
+  void set_tool(std::uint8_t hotend) { targets[kTool] = hotend; }
   friend bool operator==(const Heat&, const Heat&) = default;
 
  private:

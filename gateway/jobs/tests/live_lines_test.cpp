@@ -64,7 +64,7 @@ Motion motion_of_lines(const std::string& text, std::uint64_t seed, double starv
   LiveLines lines(machine(), kinematics());
   JobPipeline pipeline(machine(), kinematics());
   gcode::CommandBuffer commands;
-  lines.begin(kinematics().bed_reference(), std::nullopt, commands);
+  lines.begin(kinematics().bed_reference(), {}, commands);
   pipeline.start_live(kinematics().bed_reference());
   for (const auto& command : commands) pipeline.add(command);
   Motion motion;
@@ -138,7 +138,7 @@ TEST(LiveLines, LateLinesEndInStopsOnThePathAndMotionGoesOnFromThere) {
 class Lines : public ::testing::Test {
  protected:
   Lines() {
-    lines.begin(kinematics().bed_reference(), std::nullopt, out);
+    lines.begin(kinematics().bed_reference(), {}, out);
     out.clear();
   }
   std::string refused(const std::string& line) {
@@ -184,7 +184,7 @@ TEST_F(Lines, BeforeTheMachineMayMoveOnlyModesAreTaken) {
   EXPECT_FALSE(fresh.take("G1 X1 F100", 3, out));
   EXPECT_FALSE(fresh.take("G28", 4, out));
   out.clear();
-  fresh.begin(kinematics().bed_reference(), std::nullopt, out);
+  fresh.begin(kinematics().bed_reference(), {}, out);
   ASSERT_FALSE(out.empty());
   EXPECT_EQ(std::get<canonical::Limits>(out.back().command).print_accel_mm_per_s2, 500);
   out.clear();
@@ -198,7 +198,7 @@ TEST_F(Lines, ProgramKeepsItsEWhenTheMachineWasMovedInBetween) {
   Pose elsewhere = kinematics().bed_reference();
   elsewhere[kE] = 7;
   elsewhere[kX] = 12;
-  lines.begin(elsewhere, std::nullopt, out);
+  lines.begin(elsewhere, {}, out);
   out.clear();
   EXPECT_EQ(refused("G1 E101 F300"), "");
   const auto& feed = std::get<canonical::Feed>(out.back().command);
@@ -223,7 +223,7 @@ TEST_F(Lines, AnObjectIsLeftOutWhileItsLinesCome) {
   Pose elsewhere = kinematics().bed_reference();
   elsewhere[kX] = 15;
   elsewhere[kE] = 40;
-  lines.begin(elsewhere, std::nullopt, out);
+  lines.begin(elsewhere, {}, out);
   out.clear();
   for (const char* line : {"M486 S2", "G0 X30 Y1"}) EXPECT_EQ(refused(line), "");
   ASSERT_FALSE(out.empty());

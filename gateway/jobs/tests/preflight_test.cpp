@@ -64,7 +64,7 @@ TEST(Preflight, AJobThatLeavesTheHotEndAsItFindsItIsJudgedByThat) {
   const auto found = [&on_node](const std::string& job, std::optional<double> hotend_celsius) {
     StringSource source(job);
     JobCheck::Options options;
-    if (hotend_celsius) options.hotend_celsius = *hotend_celsius;
+    options.hotend_celsius[0] = hotend_celsius;
     Preflight preflight(on_node, kinematics(), source, kinematics().bed_reference(), options);
     while (!preflight.step(1000)) {
     }

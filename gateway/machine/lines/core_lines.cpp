@@ -25,7 +25,7 @@ bool Gateway::Core::lines_open() const {
 Done Gateway::Core::on(command::OpenLines& asked) {
   const auto pose = machine_pose();
   if (!pose) return Error<Refusal>(pose.error());
-  const gcode::CommandBuffer& in_force = lines_.open(*pose, heat_.hotend_found());
+  const gcode::CommandBuffer& in_force = lines_.open(*pose, heat_.hotends_found());
   give_up_job();
   Runner& runner = print_.runner();
   runner_ = &runner;
@@ -74,6 +74,7 @@ Done Gateway::Core::carry_out_at_rest(const canonical::Line& line) {
     if (missing_fan(machine_, *thermal)) return {};
     return carry_out(command::SetFan{thermal->value, index});
   }
+  if (const auto* tool = std::get_if<canonical::Tool>(&line.command)) return choose_hotend(tool->hotend);
   if (const auto* spindle = std::get_if<canonical::Spindle>(&line.command))
     return carry_out(command::SetSpindle{spindle->rpm});
   if (const auto* pin = std::get_if<canonical::ProbePin>(&line.command))
@@ -86,6 +87,18 @@ Done Gateway::Core::carry_out_at_rest(const canonical::Line& line) {
   if (const auto* message = std::get_if<canonical::Message>(&line.command))
     events_.message(now_, Sentence::verbatim(message->text), line.line);
   if (const auto* mesh = std::get_if<canonical::Mesh>(&line.command)) return level_at_rest(*mesh, line.line);
+  return {};
+}
+
+/// For what is fed by hand. A job that is interrupted goes on with its own.
+Done Gateway::Core::choose_hotend(int hotend) {
+  const bool job = print_.runner().active();
+  if (job && !print_.runner().suspended()) return refused(say("a job is under way: it chooses its tools"));
+  if (job && !heat_.kept()) {
+    heat_.note(journal_);
+    heat_.keep();
+  }
+  heat_.select(hotend);
   return {};
 }
 

@@ -12,9 +12,9 @@ LineDesk::LineDesk(const MachineDescription& machine, const Kinematics& kinemati
                    const bodies::PrintedPart* printed)
     : machine_(machine), journal_(journal), lines_(machine, kinematics, printed) {}
 
-const gcode::CommandBuffer& LineDesk::open(const Pose& pose, std::optional<double> hotend_celsius) {
+const gcode::CommandBuffer& LineDesk::open(const Pose& pose, const HotendTargets& hotends) {
   commands_.clear();
-  lines_.begin(pose, hotend_celsius, commands_);
+  lines_.begin(pose, hotends, commands_);
   closing_ = false;
   give_up_from_.reset();
   return commands_;

@@ -26,7 +26,7 @@ class LineDesk {
   /// As the gateway before has left them.
   void restart(const gcode::WorkOffsets& offsets) { lines_.restart(offsets); }
   /// Lines may move from here on; what is in force goes before them.
-  const gcode::CommandBuffer& open(const Pose& pose, std::optional<double> hotend_celsius);
+  const gcode::CommandBuffer& open(const Pose& pose, const HotendTargets& hotends);
   /// No more lines are taken: those that were are carried out.
   void close() { closing_ = true; }
   bool closing() const { return closing_; }
