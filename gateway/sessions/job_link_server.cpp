@@ -244,6 +244,10 @@ void JobLinkServer::on_time(LocalTime now) {
     next_record_ = now + kRecordPeriod;
     recorder_.on_status(gateway_.status());
   }
+  if (now >= next_heat_) {
+    next_heat_ = now + HeatCourse::kPeriod;
+    heat_.take(gateway_.status());
+  }
   if (control_.holder() == told_holder_) return;
   told_holder_ = control_.holder();
   joblink::Event event;
@@ -257,7 +261,7 @@ void JobLinkServer::on_time(LocalTime now) {
 }
 
 LocalTime JobLinkServer::next_deadline() const {
-  return recorder_.active() ? next_record_ : LocalTime::max();
+  return recorder_.active() ? std::min(next_record_, next_heat_) : next_heat_;
 }
 
 }  // namespace kinebus

@@ -21,6 +21,7 @@
 #include "gateway/sessions/byte_session.hpp"
 #include "gateway/sessions/control.hpp"
 #include "gateway/sessions/event_log.hpp"
+#include "gateway/sessions/heat_course.hpp"
 #include "gateway/sessions/machine_file_port.hpp"
 #include "gateway/sessions/requester.hpp"
 #include "gateway/sessions/run_recorder.hpp"
@@ -132,6 +133,7 @@ class JobLinkServer {
   Options options_;
   EventLog events_;
   RunRecorder recorder_;
+  HeatCourse heat_;
   std::shared_ptr<std::int64_t> run_id_;  ///< of the history; written by the worker alone
   joblink::MachineInfo machine_info_;
 
@@ -141,7 +143,7 @@ class JobLinkServer {
   std::string vanished_key_;  ///< of the client that lost control by vanishing
   std::uint64_t keys_made_ = 0;
   ClientId told_holder_ = 0;
-  LocalTime next_record_{0}, latest_{0};
+  LocalTime next_record_{0}, next_heat_{0}, latest_{0};
 
   std::vector<std::shared_ptr<JobCheckTask>> checks_;
   std::optional<joblink::Status> status_;

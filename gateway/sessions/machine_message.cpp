@@ -195,7 +195,9 @@ joblink::MachineInfo to_message(const MachineDescription& machine, const Pose& b
     told.set_snapshot(camera.snapshot);
   }
   for (const MacroDescription& macro : machine.macros) m.add_macros(shown(macro.name));
-  if (machine.heater(kFirstHotend) != nullptr) {
+  const bool melts = std::any_of(machine.heaters.begin(), machine.heaters.end(),
+                                 [](const auto& h) { return h.kind == HeaterKind::kHotend; });
+  if (melts) {
     joblink::FilamentWays& ways = *m.mutable_filament_ways();
     ways.set_unload_mm(machine.pause.unload_mm);
     ways.set_load_mm(machine.pause.load_mm);

@@ -58,6 +58,11 @@ bool MachineRequests::take_free(const Asker& asker, const ClientMessage& message
     server_.answer(asker, std::move(reply));
     return true;
   }
+  if (message.has_get_heat_course()) {
+    *reply.mutable_heat_course() = server_.heat_.message();
+    server_.answer(asker, std::move(reply));
+    return true;
+  }
   if (message.has_get_events()) {
     const joblink::GetEvents& request = message.get_events();
     const std::size_t max = request.max_events() == 0 ? 200 : request.max_events();

@@ -129,6 +129,7 @@ joblink::Status to_message(const MachineStatus& s) {
   set_heater(*m.mutable_hotend(), s.heater(kFirstHotend));
   set_heater(*m.mutable_bed(), s.heater(kFirstBed));
   m.mutable_bed()->set_kind(joblink::HEATER_BED);
+  m.set_hotend_in_use(s.tool.index);
   for (const NamedHeaterStatus& heater : s.heaters) {
     joblink::Heater& h = *m.add_heaters();
     set_heater(h, heater);

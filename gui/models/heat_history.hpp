@@ -34,6 +34,8 @@ class HeatHistory : public QObject {
   /// Takes what the session is told.
   explicit HeatHistory(Session& session, QObject* parent = nullptr);
   void take(const joblink::Status& status);
+  /// As the gateway has kept it: takes the place of what is older than its last sample.
+  void take(const joblink::HeatCourse& course);
   /// Ascending in time.
   const std::deque<Sample>& samples(Span span) const { return span == Span::kJob ? job_ : recent_; }
   /// In the order of a sample's values.
@@ -46,6 +48,9 @@ class HeatHistory : public QObject {
  private:
   static constexpr double kPeriod_s = 1;
   void take_job(const joblink::Status& status, const Sample& sample);
+  void begin_anew(std::vector<std::string> heaters, std::vector<std::string> fans);
+  std::deque<Sample> samples_of(const joblink::HeatSamples& told) const;
+  void thin_job();
 
   std::vector<std::string> heaters_, fans_;
   std::deque<Sample> recent_, job_;

@@ -185,6 +185,12 @@ void Session::on_connected() {
   send(std::move(events), [this](const joblink::Reply& reply) {
     if (reply.has_events()) emit event_history(reply.events());
   });
+  joblink::ClientMessage heat;
+  heat.mutable_get_heat_course();
+  // A gateway that does not know it refuses: then the graph begins now.
+  send(std::move(heat), [this](const joblink::Reply& reply) {
+    if (reply.has_heat_course()) emit heat_course_told(reply.heat_course());
+  });
   list_jobs();
 }
 

@@ -111,6 +111,8 @@ class Session : public QObject {
   void jobs_changed();
   void event_arrived(const kinebus::joblink::Event& event);
   void event_history(const kinebus::joblink::EventList& events);
+  /// What was before this client came.
+  void heat_course_told(const kinebus::joblink::HeatCourse& course);
   void upload_news(const kinebus::joblink::UploadNews& news);
   void upload_begun(kinebus::gui::JobUpload* upload);
   /// A command was not carried out; `words` is for the user.

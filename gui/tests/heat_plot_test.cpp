@@ -73,6 +73,68 @@ TEST(HeatHistory, AnotherMachineOrAnotherGatewayBeginsAnew) {
   EXPECT_EQ(history.heaters().front(), "hotend2");
 }
 
+/// As a gateway tells what was before: a time each ten seconds.
+joblink::HeatCourse course_until(double last_s, const char* job) {
+  joblink::HeatCourse course;
+  for (const char* name : {"hotend", "bed", "chamber"}) course.add_heaters(name);
+  course.add_fans("part");
+  course.set_job_name(job);
+  course.set_job_elapsed_s(last_s - 100);
+  for (auto* samples : {course.mutable_recent(), course.mutable_job()}) {
+    samples->set_period_s(10);
+    for (double time_s = 100; time_s <= last_s; time_s += 10) {
+      samples->add_time_s(time_s);
+      for (int heater = 0; heater < 3; ++heater) {
+        samples->add_actual_decicelsius(1500 + heater);
+        samples->add_target_decicelsius(2000);
+        samples->add_power_permille(heater == 2 ? -1 : 400);
+      }
+      samples->add_fan_permille(300);
+    }
+  }
+  return course;
+}
+
+TEST(HeatHistory, WhoComesInMidJobHasTheWholeOfIt) {
+  Session session;
+  HeatHistory history(session);
+  // The first status is here before the answer.
+  history.take(status_at(1001, "part", 901));
+  history.take(course_until(1000, "part"));
+  history.take(status_at(1012, "part", 912));
+  const auto& job = history.samples(Span::kJob);
+  ASSERT_EQ(job.size(), 93u);
+  EXPECT_EQ(job.front().time_s, 100);
+  EXPECT_FLOAT_EQ(job.front().heaters[1].celsius, 150.1F);
+  EXPECT_FLOAT_EQ(job.front().heaters[0].target, 200);
+  EXPECT_FLOAT_EQ(job.front().heaters[0].power, 0.4F);
+  EXPECT_LT(job.front().heaters[2].power, 0);
+  EXPECT_FLOAT_EQ(job.front().fans[0], 0.3F);
+  EXPECT_EQ(job.back().time_s, 1012);
+  EXPECT_GT(history.samples(Span::kRecent).size(), 50u);
+}
+
+TEST(HeatHistory, WhatTheGatewayHasOfAJobBeforeIsNotMixedWithAnother) {
+  Session session;
+  HeatHistory history(session);
+  history.take(status_at(1001, "next", 0.5));
+  history.take(course_until(1000, ""));
+  history.take(status_at(1002, "next", 1.5));
+  EXPECT_EQ(history.samples(Span::kJob).size(), 1u);
+  EXPECT_EQ(history.samples(Span::kJob).front().time_s, 1002);
+}
+
+TEST(HeatHistory, ListsThatDoNotFitTogetherAreNotTaken) {
+  Session session;
+  HeatHistory history(session);
+  joblink::HeatCourse broken = course_until(1000, "part");
+  broken.mutable_job()->add_power_permille(1);
+  broken.mutable_recent()->mutable_fan_permille()->RemoveLast();
+  history.take(broken);
+  EXPECT_TRUE(history.samples(Span::kJob).empty());
+  EXPECT_TRUE(history.samples(Span::kRecent).empty());
+}
+
 class HeatPlotTest : public WindowTest {};
 
 TEST_F(HeatPlotTest, AllHeatersAreDrawnInBothSpansAndDirections) {

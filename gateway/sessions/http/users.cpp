@@ -149,6 +149,7 @@ Role role_for(const joblink::ClientMessage& message) {
     case Message::kGetHistory:
     case Message::kGetMachine:
     case Message::kGetEvents:
+    case Message::kGetHeatCourse:
     case Message::kReadMachineFile:
     case Message::kStop:  // whoever sees that it must
     case Message::kReleaseControl:

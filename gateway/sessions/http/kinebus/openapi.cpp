@@ -70,6 +70,7 @@ const FieldDescriptor* result_of(const FieldDescriptor& request) {
       {"get_status", "status"},
       {"get_machine", "machine"},
       {"get_events", "events"},
+      {"get_heat_course", "heat_course"},
       {"list_jobs", "jobs"},
       {"get_history", "history"},
       {"check_job", "preflight"},

@@ -7,6 +7,10 @@
 namespace kinebus::http {
 namespace {
 
+std::string extruder_name(std::uint32_t index) {
+  return index == 0 ? "extruder" : "extruder" + std::to_string(index);
+}
+
 struct Machine {
   const joblink::Status& status;
   const joblink::MachineInfo& info;
@@ -44,7 +48,7 @@ Json toolhead(const Machine& m) {
           {"axis_maximum", corner(m.info.reach(), true)},
           {"max_velocity", m.info.tool_speed_mm_per_s()},
           {"max_accel", m.info.tool_accel_mm_per_s2()},
-          {"extruder", "extruder"},
+          {"extruder", extruder_name(m.status.hotend_in_use())},
           {"stalls", m.status.counters().starvation_holds()}};
 }
 Json gcode_move(const Machine& m) {
@@ -193,8 +197,7 @@ Json fields_of(Json object, const Json& wanted) {
 }  // namespace
 
 std::string klipper_heater(const joblink::Heater& heater) {
-  if (heater.kind() == joblink::HEATER_HOTEND)
-    return heater.index() == 0 ? "extruder" : "extruder" + std::to_string(heater.index());
+  if (heater.kind() == joblink::HEATER_HOTEND) return extruder_name(heater.index());
   if (heater.kind() == joblink::HEATER_BED && heater.index() == 0) return "heater_bed";
   return "heater_generic " + heater.name();
 }
