@@ -231,8 +231,8 @@ class Runner {
   bool replay_learned(journal::Learned::What what);
   Outcome probe_outcome(BusTime now);
   std::optional<Failure> wrong_after_probe(JobPipeline::Step step);
-  /// nullptr: nothing is to be waited for.
   void change_tool(int hotend);
+  /// nullptr: nothing is to be waited for.
   const HeaterDescription* awaited(const canonical::Thermal& thermal) const;
   void begin_heating(const canonical::Thermal& thermal);
 
