@@ -45,6 +45,23 @@ export class Course {
     }, [this.#times, ...this.#values], this.element);
   }
 
+  /// The element says how many points it shows.
+  #draw() {
+    this.element.dataset.points = this.#times.length;
+    this.#plot?.setData([this.#times, ...this.#values]);
+  }
+
+  /// What was before: seconds ago, ascending to 0, and the values of each label.
+  fill(ages, values) {
+    const now = Math.floor(Date.now() / 1000);
+    const first = this.#times[0] ?? Infinity;
+    const times = ages.map((age) => now - Math.round(age));
+    const old = [...times.keys()].filter((i) => times[i] < first && times[i] >= now - kSeconds && times[i] !== times[i + 1]);
+    this.#times.unshift(...old.map((i) => times[i]));
+    this.#values.forEach((course, label) => course.unshift(...old.map((i) => values[label][i] ?? null)));
+    this.#draw();
+  }
+
   /// A value for each label; null: not known.
   add(values) {
     const now = Math.floor(Date.now() / 1000);
@@ -55,6 +72,6 @@ export class Course {
       this.#times.shift();
       for (const course of this.#values) course.shift();
     }
-    this.#plot?.setData([this.#times, ...this.#values]);
+    this.#draw();
   }
 }

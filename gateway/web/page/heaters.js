@@ -19,6 +19,17 @@ export class Heaters {
     this.materials = machine.materials ?? [];
     this.#course.begin(machine.heaters.map((heater) => heater.name));
     this.say();
+    this.#fill();
+  }
+
+  /// What the gateway has kept from before this page was opened.
+  async #fill() {
+    const kept = (await this.ask('get_heat_course', {}))?.heat_course;
+    const times = kept?.recent?.time_s ?? [];
+    const last = times.at(-1);
+    const places = this.heaters.map((heater) => kept?.heaters?.indexOf(heater.name) ?? -1);
+    const celsius = (place) => times.map((time, i) => (place < 0 ? null : (kept.recent.actual_decicelsius?.[i * kept.heaters.length + place] ?? 0) / 10));
+    this.#course.fill(times.map((time) => last - time), places.map(celsius));
   }
 
   say() {

@@ -219,6 +219,17 @@ stream = ":${camera_port}/silent"
     claim((await page.locator('#motors tr').count()) === 6, 'a row for each motor');
     claim(await page.locator('#motors button').first().isDisabled(), 'no motor is measured while a job runs');
 
+    // Who comes later sees what was before: a page of its own, in the same browser.
+    const later = await context.newPage();
+    await later.goto(address);
+    await until('the later page is let in', async () => (await later.locator('#state').innerText()) === 'running');
+    const points = (of) => of.locator('#graph').evaluate((graph) => Number(graph.dataset.points));
+    await until('it has what was before', async () => (await points(later)) >= (await points(page)) - 3);
+    claim((await points(page)) > 10, 'there was something before');
+    await later.locator('#graph').scrollIntoViewIfNeeded();
+    await later.screenshot({ path: path.join(shots, 'later.png') });
+    await later.close();
+
     // The page's policy lets no script in but its own: this one comes by the debugger.
     await page.evaluate(fs.readFileSync(axe, 'utf8'));
     for (const [language, theme] of [['en', 'light'], ['en', 'dark'], ['tr', 'light'], ['fa', 'dark']]) {
