@@ -70,7 +70,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
   LiveLines lines(machine, *kinematics);
   gcode::CommandBuffer out;
-  lines.begin(kinematics->bed_reference(), std::nullopt, out);
+  lines.begin(kinematics->bed_reference(), {}, out);
   std::string_view text(reinterpret_cast<const char*>(data), size);
   std::uint32_t number = 0;
   while (!text.empty() && number < 200) {
