@@ -32,6 +32,9 @@ void HeatCourse::make_room(const MachineStatus& status) {
 void HeatCourse::take(const MachineStatus& status) {
   if (recent_.time_s.empty()) make_room(status);
   if (status.heaters.size() != heaters_.size() || status.fans.size() != fans_.size()) return;
+  // Until they have come up, what they measure is not known.
+  const bool up = status.state != MachineState::kOff && status.state != MachineState::kBringUp;
+  if (recent_.count == 0 && !up) return;
   put(recent_, status);
   take_job(status);
 }

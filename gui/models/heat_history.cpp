@@ -78,6 +78,9 @@ void HeatHistory::take(const joblink::Status& status) {
   const bool other = heaters != heaters_ || fans != fans_ ||
                      (!recent_.empty() && status.time_s() < recent_.back().time_s);  // another gateway
   if (other) begin_anew(std::move(heaters), std::move(fans));
+  // Until they have come up, what they measure is not known.
+  const bool up = status.state() != joblink::STATE_OFF && status.state() != joblink::STATE_BRING_UP;
+  if (recent_.empty() && !up) return;
   if (!recent_.empty() && status.time_s() < recent_.back().time_s + kPeriod_s) return;
   Sample sample{.time_s = status.time_s(), .heaters = {}, .fans = {}};
   const auto f = [](double v) { return static_cast<float>(v); };

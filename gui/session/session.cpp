@@ -318,12 +318,6 @@ void Session::exclude_object(const std::string& name) {
 void Session::set_override(double ratio) {
   command(plain([&](auto& r) { r.mutable_set_override()->set_ratio(ratio); }));
 }
-void Session::set_temperature(bool bed, double celsius) {
-  command(plain([&](auto& r) {
-    r.mutable_set_temperature()->set_bed(bed);
-    r.mutable_set_temperature()->set_celsius(celsius);
-  }));
-}
 void Session::set_heater(joblink::HeaterKind kind, std::uint32_t index, double celsius) {
   command(plain([&](auto& r) {
     r.mutable_set_temperature()->set_kind(kind);

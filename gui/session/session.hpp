@@ -33,7 +33,8 @@ class Session : public QObject {
   void disconnect_from_gateway();
 
   LinkState link_state() const { return link_state_; }
-  QString gateway_title() const { return title_.said(); }
+  /// Read in the direction of its own first letter: it may be a path, in a language from right to left, too.
+  QString gateway_title() const { return QChar(0x2068) + title_.said() + QChar(0x2069); }
   QString link_words() const { return link_words_.said(); }  ///< why it is lost, or how it is connected
   /// How long ago the newest status came: while the link is lost, status() is what was known then.
   double status_age_s() const { return static_cast<double>(clock_.nsecsElapsed() - status_at_ns_) * 1e-9; }
@@ -76,7 +77,6 @@ class Session : public QObject {
   /// One joint alone, mm or rad.
   void jog_motor(int joint, double distance);
   void set_override(double ratio);
-  void set_temperature(bool bed, double celsius);
   /// 0 switches it off, and ends its measurement.
   void set_heater(joblink::HeaterKind kind, std::uint32_t index, double celsius);
   /// Of the print under way; it cannot be taken back.

@@ -20,6 +20,7 @@ joblink::Status status_at(double time_s, const char* job = "", double elapsed_s 
   status.set_time_s(time_s);
   status.set_job(job);
   status.set_elapsed_s(elapsed_s);
+  status.set_state(joblink::STATE_READY);
   for (const char* name : {"hotend", "bed", "chamber"}) {
     auto& heater = *status.add_heaters();
     heater.set_name(name);

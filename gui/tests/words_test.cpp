@@ -308,6 +308,32 @@ TEST(WrappedWords, BeginAtTheSameEdgeInEveryLineFromTheRight) {
   EXPECT_GE(first, picture.width() - 4);
 }
 
+/// Where a line of text has its character, from the left edge.
+qreal place_of(const QString& text, qsizetype at) {
+  QTextOption option;
+  option.setTextDirection(Qt::RightToLeft);
+  QTextLayout layout(text);
+  layout.setTextOption(option);
+  layout.beginLayout();
+  QTextLine line = layout.createLine();
+  line.setLineWidth(10'000);
+  layout.endLayout();
+  return line.cursorToX(static_cast<int>(at));
+}
+
+TEST_F(WordsTest, APathIsReadFromTheLeftInPersianToo) {
+  show_connected();
+  window->set_language(QStringLiteral("fa"));
+  desk.session.connect_to([path = gateway.socket_path()] { return std::make_unique<SocketLink>(path); },
+                          QStringLiteral("/run/kinebus/gateway.sock"));
+  settle();
+  const QString shown = desk.session.gateway_title();
+  const qsizetype slash = shown.indexOf(QLatin1Char('/'));
+  ASSERT_GE(slash, 0) << shown.toStdString();
+  EXPECT_GT(place_of(shown, slash + 1), 1) << "its first stroke is left of its first letter";
+  EXPECT_LT(place_of(shown, slash + 1), place_of(shown, slash + 3));
+}
+
 TEST_F(WordsTest, APageTurnsWhenItsButtonIsToggledAsAScreenReaderDoes) {
   fill();
   if (HasFatalFailure()) return;

@@ -5459,6 +5459,69 @@
     </message>
 </context>
 <context>
+    <name>kinebus::gui::HeatersCard</name>
+    <message>
+        <source>Heat</source>
+        <translation>دما</translation>
+    </message>
+    <message>
+        <source>Heat for a material</source>
+        <translation>گرم کردن برای یک ماده</translation>
+    </message>
+    <message>
+        <source>Temperatures by the machine file: tables [material.NAME]</source>
+        <translation>دماها از پروندهٔ ماشین: جدول‌های [material.NAME]</translation>
+    </message>
+    <message>
+        <source>Bed</source>
+        <translation>بستر</translation>
+    </message>
+    <message>
+        <source>Chamber</source>
+        <translation>محفظه</translation>
+    </message>
+    <message>
+        <source>Nozzle %1</source>
+        <translation>نازل %1</translation>
+    </message>
+    <message>
+        <source>Nozzle</source>
+        <translation>نازل</translation>
+    </message>
+    <message>
+        <source>Target temperature of the bed</source>
+        <translation>دمای هدف بستر</translation>
+    </message>
+    <message>
+        <source>Target temperature of the chamber</source>
+        <translation>دمای هدف محفظه</translation>
+    </message>
+    <message>
+        <source>Target temperature of nozzle %1</source>
+        <translation>دمای هدف نازل %1</translation>
+    </message>
+    <message>
+        <source>Target temperature of the nozzle</source>
+        <translation>دمای هدف نازل</translation>
+    </message>
+    <message>
+        <source>off</source>
+        <translation>خاموش</translation>
+    </message>
+    <message>
+        <source>%1, in use</source>
+        <translation>%1، در حال استفاده</translation>
+    </message>
+    <message>
+        <source>Fan %1</source>
+        <translation>فن %1</translation>
+    </message>
+    <message>
+        <source>Fan</source>
+        <translation>فن</translation>
+    </message>
+</context>
+<context>
     <name>kinebus::gui::JobPanel</name>
     <message>
         <source>Interrupted: clear the stop, then resume goes on from its place.</source>
@@ -6321,14 +6384,6 @@
 <context>
     <name>kinebus::gui::PositionPanel</name>
     <message>
-        <source>Heat for a material</source>
-        <translation>گرم کردن برای یک ماده</translation>
-    </message>
-    <message>
-        <source>Temperatures by the machine file: tables [material.NAME]</source>
-        <translation>دماها از پروندهٔ ماشین: جدول‌های [material.NAME]</translation>
-    </message>
-    <message>
         <source>Carriages and axes</source>
         <translation>حامل‌ها و محورها</translation>
     </message>
@@ -6339,34 +6394,6 @@
     <message>
         <source>By its scale: read at rest</source>
         <translation>خط‌کش آن در حال سکون خوانده می‌شود</translation>
-    </message>
-    <message>
-        <source>Heat</source>
-        <translation>دما</translation>
-    </message>
-    <message>
-        <source>Target temperature of the nozzle</source>
-        <translation>دمای هدف نازل</translation>
-    </message>
-    <message>
-        <source>Target temperature of the bed</source>
-        <translation>دمای هدف بستر</translation>
-    </message>
-    <message>
-        <source>off</source>
-        <translation>خاموش</translation>
-    </message>
-    <message>
-        <source>Bed</source>
-        <translation>بستر</translation>
-    </message>
-    <message>
-        <source>Nozzle</source>
-        <translation>نازل</translation>
-    </message>
-    <message>
-        <source>Fan</source>
-        <translation>فن</translation>
     </message>
     <message>
         <source>Tool over the part</source>

@@ -5459,6 +5459,69 @@
     </message>
 </context>
 <context>
+    <name>kinebus::gui::HeatersCard</name>
+    <message>
+        <source>Heat</source>
+        <translation>Sıcaklık</translation>
+    </message>
+    <message>
+        <source>Heat for a material</source>
+        <translation>Malzemeye göre ısıt</translation>
+    </message>
+    <message>
+        <source>Temperatures by the machine file: tables [material.NAME]</source>
+        <translation>Sıcaklıklar makine dosyasından: [material.NAME] tabloları</translation>
+    </message>
+    <message>
+        <source>Bed</source>
+        <translation>Tabla</translation>
+    </message>
+    <message>
+        <source>Chamber</source>
+        <translation>Kabin</translation>
+    </message>
+    <message>
+        <source>Nozzle %1</source>
+        <translation>Nozul %1</translation>
+    </message>
+    <message>
+        <source>Nozzle</source>
+        <translation>Nozul</translation>
+    </message>
+    <message>
+        <source>Target temperature of the bed</source>
+        <translation>Tablanın hedef sıcaklığı</translation>
+    </message>
+    <message>
+        <source>Target temperature of the chamber</source>
+        <translation>Kabinin hedef sıcaklığı</translation>
+    </message>
+    <message>
+        <source>Target temperature of nozzle %1</source>
+        <translation>%1 nozulunun hedef sıcaklığı</translation>
+    </message>
+    <message>
+        <source>Target temperature of the nozzle</source>
+        <translation>Nozulun hedef sıcaklığı</translation>
+    </message>
+    <message>
+        <source>off</source>
+        <translation>kapalı</translation>
+    </message>
+    <message>
+        <source>%1, in use</source>
+        <translation>%1, kullanımda</translation>
+    </message>
+    <message>
+        <source>Fan %1</source>
+        <translation>Fan %1</translation>
+    </message>
+    <message>
+        <source>Fan</source>
+        <translation>Fan</translation>
+    </message>
+</context>
+<context>
     <name>kinebus::gui::JobPanel</name>
     <message>
         <source>Interrupted: clear the stop, then resume goes on from its place.</source>
@@ -6321,14 +6384,6 @@
 <context>
     <name>kinebus::gui::PositionPanel</name>
     <message>
-        <source>Heat for a material</source>
-        <translation>Malzemeye göre ısıt</translation>
-    </message>
-    <message>
-        <source>Temperatures by the machine file: tables [material.NAME]</source>
-        <translation>Sıcaklıklar makine dosyasından: [material.NAME] tabloları</translation>
-    </message>
-    <message>
         <source>Carriages and axes</source>
         <translation>Taşıyıcılar ve eksenler</translation>
     </message>
@@ -6339,34 +6394,6 @@
     <message>
         <source>By its scale: read at rest</source>
         <translation>Cetveli dururken okunur</translation>
-    </message>
-    <message>
-        <source>Heat</source>
-        <translation>Sıcaklık</translation>
-    </message>
-    <message>
-        <source>Target temperature of the nozzle</source>
-        <translation>Nozulun hedef sıcaklığı</translation>
-    </message>
-    <message>
-        <source>Target temperature of the bed</source>
-        <translation>Tablanın hedef sıcaklığı</translation>
-    </message>
-    <message>
-        <source>off</source>
-        <translation>kapalı</translation>
-    </message>
-    <message>
-        <source>Bed</source>
-        <translation>Tabla</translation>
-    </message>
-    <message>
-        <source>Nozzle</source>
-        <translation>Nozul</translation>
-    </message>
-    <message>
-        <source>Fan</source>
-        <translation>Fan</translation>
     </message>
     <message>
         <source>Tool over the part</source>

@@ -4,13 +4,10 @@
 #include <QFont>
 #include <QGridLayout>
 #include <QLabel>
-#include <QMenu>
 #include <QPaintEvent>
 #include <QPainter>
 #include <QPalette>
 #include <QRectF>
-#include <QStringList>
-#include <QToolButton>
 #include <QVBoxLayout>
 #include <QWidget>
 #include <algorithm>
@@ -18,6 +15,7 @@
 #include <numbers>
 
 #include "gui/models/format.hpp"
+#include "gui/views/heaters_card.hpp"
 
 namespace kinebus::gui {
 namespace {
@@ -63,6 +61,7 @@ PositionPanel::PositionPanel(Desk& desk, QWidget* parent) : SpeakingWidget(paren
   column->setContentsMargins(6, 2, 12, 6);
   column->setSpacing(8);
   column->addWidget(make_axes());
+  column->addWidget(new HeatersCard(desk_, this));
   joints_card_ = new Card(this);
   joints_card_->column()->setContentsMargins(16, 10, 16, 11);
   joints_heading_ = make_label("heading", this);
@@ -73,7 +72,6 @@ PositionPanel::PositionPanel(Desk& desk, QWidget* parent) : SpeakingWidget(paren
   joints_grid_->setColumnStretch(1, 1);
   joints_card_->column()->addLayout(joints_grid_);
   column->addWidget(joints_card_);
-  column->addWidget(make_heaters());
   column->addStretch(1);
   setMinimumWidth(268);
   connect(&desk_.session, &Session::machine_changed, this, &PositionPanel::rebuild_joints);
@@ -83,11 +81,6 @@ PositionPanel::PositionPanel(Desk& desk, QWidget* parent) : SpeakingWidget(paren
   rebuild_joints();
   says([this] {
     joints_heading_->setText(tr("Carriages and axes"));
-    heat_heading_->setText(tr("Heat"));
-    hotend_target_->setAccessibleName(tr("Target temperature of the nozzle"));
-    bed_target_->setAccessibleName(tr("Target temperature of the bed"));
-    hotend_target_->setSpecialValueText(tr("off"));
-    bed_target_->setSpecialValueText(tr("off"));
     take_status();
   });
 }
@@ -123,90 +116,6 @@ QWidget* PositionPanel::make_axes() {
   return card;
 }
 
-QWidget* PositionPanel::make_heaters() {
-  auto* card = new Card(this);
-  card->column()->setContentsMargins(16, 10, 16, 11);
-  heat_heading_ = make_label("heading", card);
-  card->column()->addWidget(heat_heading_);
-  auto* grid = new QGridLayout;
-  grid->setHorizontalSpacing(10);
-  grid->setVerticalSpacing(5);
-  grid->setColumnStretch(1, 1);
-  const auto add = [&](int row, QLabel*& actual, NumberField*& target, double max, bool bed) {
-    auto* name = new QLabel(card);
-    actual = new QLabel(card);
-    target = new NumberField(card);
-    target->setRange(0, max);
-    target->setDecimals(0);
-    target->setSingleStep(5);
-    target->setSuffix(QStringLiteral(" °C"));
-    target->setAlignment(Qt::AlignRight);
-    target->setFixedWidth(84);
-    grid->addWidget(name, row, 0);
-    grid->addWidget(actual, row, 1, Qt::AlignTrailing);
-    grid->addWidget(target, row, 2);
-    connect(target, &NumberField::refused, &desk_.session, &Session::refused);
-    connect(target, &NumberField::editingFinished, this, [this, target, bed] {
-      const auto& heater = bed ? desk_.session.status().bed() : desk_.session.status().hotend();
-      if (desk_.session.connected() && std::abs(target->value() - heater.target_celsius()) > 0.5)
-        desk_.session.set_temperature(bed, target->value());
-    });
-    says([name, bed] { name->setText(bed ? tr("Bed") : tr("Nozzle")); });
-  };
-  add(0, hotend_, hotend_target_, 300, false);
-  add(1, bed_, bed_target_, 120, true);
-  auto* fan_name = new QLabel(card);
-  fan_ = new QLabel(card);
-  grid->addWidget(fan_name, 2, 0);
-  grid->addWidget(fan_, 2, 2, Qt::AlignTrailing);
-  says([fan_name] { fan_name->setText(tr("Fan")); });
-  card->column()->addLayout(grid);
-  card->column()->addWidget(make_materials());
-  return card;
-}
-
-QWidget* PositionPanel::make_materials() {
-  materials_ = new QToolButton(this);
-  materials_->setPopupMode(QToolButton::InstantPopup);
-  materials_->setToolButtonStyle(Qt::ToolButtonTextOnly);
-  materials_->setMenu(new QMenu(materials_));
-  says([this] {
-    materials_->setText(tr("Heat for a material"));
-    materials_->setToolTip(tr("Temperatures by the machine file: tables [material.NAME]"));
-    take_materials();
-  });
-  return materials_;
-}
-
-void PositionPanel::take_materials() {
-  const auto& all = desk_.session.machine().materials();
-  QMenu* menu = materials_->menu();
-  menu->clear();
-  for (const joblink::Material& each : all) {
-    QStringList degrees;
-    for (const double celsius : {each.hotend_celsius(), each.bed_celsius(), each.chamber_celsius()})
-      if (celsius > 0) degrees << Format::isolated(Format::temperature(celsius));
-    menu->addAction(
-        QString::fromStdString(each.name()) + QStringLiteral("   ") + degrees.join(QStringLiteral(" / ")),
-        this, [this, each] { heat_for(each); });
-  }
-  menu->addAction(tr("off"), this, [this] {
-    for (const auto& heater : desk_.session.machine().heaters())
-      desk_.session.set_heater(heater.kind(), heater.index(), 0);
-  });
-  materials_->setVisible(!all.empty());
-}
-
-/// The first of each kind: others are for other filament.
-void PositionPanel::heat_for(const joblink::Material& material) {
-  const auto heat = [&](joblink::HeaterKind kind, double celsius) {
-    if (celsius > 0) desk_.session.set_heater(kind, 0, celsius);
-  };
-  heat(joblink::HEATER_BED, material.bed_celsius());
-  heat(joblink::HEATER_CHAMBER, material.chamber_celsius());
-  heat(joblink::HEATER_HOTEND, material.hotend_celsius());
-}
-
 void PositionPanel::rebuild_joints() {
   for (const JointRow& row : joints_)
     for (QWidget* w : {static_cast<QWidget*>(row.name), static_cast<QWidget*>(row.value),
@@ -240,9 +149,6 @@ void PositionPanel::rebuild_joints() {
     ++i;
   }
   joints_card_->setVisible(!joints_.isEmpty());
-  hotend_target_->setMaximum(machine.hotend_max_celsius() > 0 ? machine.hotend_max_celsius() : 300);
-  bed_target_->setMaximum(machine.bed_max_celsius() > 0 ? machine.bed_max_celsius() : 120);
-  take_materials();
   take_status();
 }
 
@@ -290,19 +196,6 @@ void PositionPanel::take_status() {
                                : near ? desk_.theme.colours().waiting
                                       : desk_.theme.colours().accent);
   }
-  const auto heat = [&](QLabel* actual, NumberField* target, const joblink::Heater& heater) {
-    actual->setText(desk_.session.connected() ? Format::isolated(Format::temperature(heater.actual_celsius()))
-                                              : QStringLiteral("—"));
-    // Set only when it is another: a spin box paints itself, and with it the whole window, even for the same.
-    if (!target->hasFocus() && target->value() != heater.target_celsius())
-      target->setValue(heater.target_celsius());
-    target->setEnabled(desk_.session.connected());
-  };
-  heat(hotend_, hotend_target_, s.hotend());
-  heat(bed_, bed_target_, s.bed());
-  materials_->setEnabled(desk_.session.connected() &&
-                         desk_.session.allowed(joblink::COMMAND_SET_TEMPERATURE));
-  fan_->setText(desk_.session.connected() ? Format::percent(s.fan()) : QStringLiteral("—"));
 }
 
 }  // namespace kinebus::gui

@@ -6,12 +6,10 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QPaintEvent>
-#include <QToolButton>
 #include <QVector>
 #include <QWidget>
 
 #include "gui/views/desk.hpp"
-#include "gui/views/number_field.hpp"
 #include "gui/views/widgets.hpp"
 
 namespace kinebus::gui {
@@ -47,10 +45,6 @@ class PositionPanel : public SpeakingWidget {
     int joint;
   };
   QWidget* make_axes();
-  QWidget* make_heaters();
-  QWidget* make_materials();
-  void heat_for(const joblink::Material& material);
-  void take_materials();
   void rebuild_joints();
   void take_status();
 
@@ -58,9 +52,7 @@ class PositionPanel : public SpeakingWidget {
   QVector<AxisRow> axes_;
   Card* joints_card_;
   QGridLayout* joints_grid_;
-  QLabel *frame_text_, *joints_heading_, *heat_heading_, *hotend_, *bed_, *fan_;
-  NumberField *hotend_target_, *bed_target_;
-  QToolButton* materials_ = nullptr;
+  QLabel *frame_text_, *joints_heading_;
   QVector<JointRow> joints_;
 };
 

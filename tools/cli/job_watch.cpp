@@ -18,7 +18,7 @@ using joblink::Event;
 using joblink::Status;
 constexpr int kBarWidth = 32;
 
-/// One line that is written over on a terminal, and a line every ten per cent elsewhere.
+/// One line that is written over on a terminal; elsewhere a line every ten per cent, and one a minute.
 class ProgressLine {
  public:
   void show(double fraction, const std::string& text) {
@@ -28,8 +28,10 @@ class ProgressLine {
     if (terminal_) {
       fmt::print("\r[{}] {:5.1f} %  {}\033[K", bar, 100 * fraction, text);
       open_ = true;
-    } else if (const int tenth = static_cast<int>(fraction * 10); tenth != last_tenth_) {
+    } else if (const int tenth = static_cast<int>(fraction * 10);
+               tenth != last_tenth_ || Clock::now() - printed_ >= kMinute) {
       last_tenth_ = tenth;
+      printed_ = Clock::now();
       fmt::print("[{}] {:5.1f} %  {}\n", bar, 100 * fraction, text);
     }
     std::fflush(stdout);
@@ -40,9 +42,12 @@ class ProgressLine {
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::minutes kMinute{1};
   bool terminal_ = ::isatty(STDOUT_FILENO) != 0;
   bool open_ = false;
   int last_tenth_ = -1;
+  Clock::time_point printed_{};
 };
 
 void print_event(const Event& event) {

@@ -13,6 +13,7 @@ MachineStatus heat_at(int second, const char* job = "", double elapsed_s = 0) {
   status.now = std::chrono::seconds{second};
   status.job = job;
   status.elapsed_s = elapsed_s;
+  status.state = MachineState::kReady;
   for (const HeaterId id : {kFirstHotend, kFirstBed}) {
     NamedHeaterStatus heater;
     heater.id = id;
@@ -61,6 +62,18 @@ TEST(HeatCourse, KeepsTheWholeOfALongJobWithinItsBounds) {
   EXPECT_GT(course.message().job().time_s_size(), 100);
   course.take(heat_at(200 + kJob_s, "part", 0));
   EXPECT_EQ(course.message().job().time_s_size(), 1);
+}
+
+TEST(HeatCourse, BeginsWhenWhatItsHeatersMeasureIsKnown) {
+  HeatCourse course;
+  for (const MachineState state : {MachineState::kOff, MachineState::kBringUp, MachineState::kUnhomed,
+                                   MachineState::kOff, MachineState::kReady}) {
+    const int second = static_cast<int>(state) + 10 * course.message().recent().time_s_size();
+    MachineStatus status = heat_at(second);
+    status.state = state;
+    course.take(status);
+  }
+  EXPECT_EQ(course.message().recent().time_s_size(), 3) << "and goes on when the drives are without power";
 }
 
 TEST(HeatCourse, AClientThatComesLateIsToldWhatWasBefore) {

@@ -138,7 +138,21 @@ void heater_command(Session& session, std::string_view body) {
   if (message) carry_out(session, {*message});
 }
 
-/// {"command": "target", "targets": {"tool0": 210}}, {"command": "extrude", "amount": 5}
+/// "tool1" is T1, where the machine has such a hot end.
+std::optional<ClientMessage> select_message(Session& session, const joblink::Status& status,
+                                            const std::string& tool) {
+  for (const joblink::Heater& known : status.heaters()) {
+    if (known.kind() != joblink::HEATER_HOTEND || octoprint_heater(known) != tool) continue;
+    ClientMessage message;
+    message.mutable_console()->set_line("T" + std::to_string(known.index()));
+    return message;
+  }
+  session.refuse(409, "this machine has no tool '" + tool + "'");
+  return std::nullopt;
+}
+
+/// {"command": "target", "targets": {"tool0": 210}}, {"command": "extrude", "amount": 5},
+/// {"command": "select", "tool": "tool1"}
 void tool_command(Session& session, std::string_view body) {
   const auto asked = json_body(session, body);
   if (!asked) return;
@@ -163,8 +177,12 @@ void tool_command(Session& session, std::string_view body) {
     message.mutable_jog()->mutable_delta()->set_e_mm(*amount);
     message.mutable_jog()->set_speed_per_s(*speed / 60);
     messages.push_back(std::move(message));
+  } else if (what == "select") {
+    auto message = select_message(session, machine_status(session), word_in(*asked, "tool"));
+    if (!message) return;
+    messages.push_back(std::move(*message));
   } else {
-    return session.refuse(400, "the commands of a tool are: target, extrude");
+    return session.refuse(400, "the commands of a tool are: target, extrude, select");
   }
   carry_out(session, std::move(messages));
 }

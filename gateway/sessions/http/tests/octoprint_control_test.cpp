@@ -70,6 +70,30 @@ TEST_F(OctoPrintControl, HeatersHaveOctoPrintsNames) {
   EXPECT_EQ(rig.get("/api/printer").json()["temperature"]["tool0"]["target"], 180);
 }
 
+MachineDescription with_two_hotends() {
+  MachineDescription machine = default_m1();
+  HeaterDescription second = *machine.heater({HeaterKind::kHotend, 0});
+  second.name = "hotend_1";
+  second.index = 1;
+  machine.heaters.push_back(second);
+  return machine;
+}
+
+TEST(OctoPrintTools, TheOneThatIsSelectedIsInUse) {
+  HttpRig rig({}, 32, Users(kKey), with_two_hotends());
+  rig.send("POST", "/api/connection", R"({"command":"connect"})");
+  ASSERT_TRUE(rig.run_until([&] { return status_of(rig).state() == joblink::STATE_UNHOMED; }, 20s));
+  rig.send("POST", "/api/printer/printhead", R"({"command":"home","axes":["z"]})");
+  ASSERT_TRUE(rig.run_until([&] { return status_of(rig).state() == joblink::STATE_READY; }, 120s));
+  ASSERT_EQ(status_of(rig).hotend_in_use(), 0U);
+  for (const unsigned tool : {1U, 0U}) {
+    const std::string body = R"({"command":"select","tool":"tool)" + std::to_string(tool) + R"("})";
+    const Response response = rig.send("POST", "/api/printer/tool", body);
+    EXPECT_EQ(response.status, 204) << response.body;
+    EXPECT_TRUE(rig.run_until([&] { return status_of(rig).hotend_in_use() == tool; }, 5s)) << body;
+  }
+}
+
 TEST_F(OctoPrintControl, WhatIsWrongIsSaidAndNothingMoves) {
   const std::tuple<const char*, const char*, int, const char*> cases[] = {
       {"/api/printer/printhead", R"({"command":"dance"})", 400, "jog, home, feedrate"},
@@ -80,7 +104,8 @@ TEST_F(OctoPrintControl, WhatIsWrongIsSaidAndNothingMoves) {
       {"/api/printer/tool", R"({"command":"target","targets":{"tool0":"hot"}})", 400, "degrees Celsius"},
       {"/api/printer/tool", R"({"command":"target"})", 400, "'targets'"},
       {"/api/printer/tool", R"({"command":"extrude","amount":"much"})", 400, "the amount"},
-      {"/api/printer/tool", R"({"command":"select","tool":"tool0"})", 400, "target, extrude"},
+      {"/api/printer/tool", R"({"command":"select","tool":"tool1"})", 409, "no tool 'tool1'"},
+      {"/api/printer/tool", R"({"command":"offset"})", 400, "target, extrude, select"},
       {"/api/printer/bed", R"({"command":"offset","offset":1})", 400, "target"},
       {"/api/printer/bed", R"({"command":"target","target":900})", 409, "0 to 120 C"},
       {"/api/printer/chamber", R"({"command":"target","target":40})", 409, "no heater 'chamber'"},
