@@ -94,10 +94,14 @@ void print(std::string& text, const Message& message) {
   text += "BO_ " + std::to_string(message.id) + " " + message.name + ": " + std::to_string(message.length) +
           " " + message.sender + "\n";
   for (const FrameField& s : message.signals) {
+    const std::string multiplex = multiplexing(message, s);
+    // Some readers choose by the scaled value, others by the raw one: of a selector they are the same.
+    const bool selects = multiplex.ends_with('M') && s.factor != 1;
+    const std::string unit = selects ? decimal(s.factor) + " " + s.unit : s.unit;
     // Ranges are left open (0|0): a 56-bit range has no exact decimal in common readers.
-    text += " SG_ " + s.name + multiplexing(message, s) + " : " + std::to_string(s.start) + "|" +
-            std::to_string(s.bits) + "@1" + (s.is_signed ? "-" : "+") + " (" + decimal(s.factor) +
-            ",0) [0|0] \"" + s.unit + "\" " + message.receiver + "\n";
+    text += " SG_ " + s.name + multiplex + " : " + std::to_string(s.start) + "|" + std::to_string(s.bits) +
+            "@1" + (s.is_signed ? "-" : "+") + " (" + decimal(selects ? 1 : s.factor) + ",0) [0|0] \"" +
+            unit + "\" " + message.receiver + "\n";
   }
   text += "\n";
 }

@@ -239,11 +239,18 @@ std::string decimal(double value) {
 }
 
 std::string identifier(std::string_view name) {
-  std::string result;
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  // As C has it, none begins with a digit; the point of a number is no end of a word.
+  std::string result = !name.empty() && is_digit(name.front()) ? "_" : "";
   bool capital = true;
-  for (const char c : name) {
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const char c = name[i];
     const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-    if (!letter && !(c >= '0' && c <= '9')) {
+    if (c == '.' && i > 0 && is_digit(name[i - 1])) {
+      result += '_';
+      continue;
+    }
+    if (!letter && !is_digit(c)) {
       capital = true;
       continue;
     }

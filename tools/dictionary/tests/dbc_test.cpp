@@ -1,6 +1,8 @@
 // The file is read back by a reader of its own and compared with the object table and the codecs.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -35,6 +37,13 @@ struct Message {
   std::vector<std::string> order;
   std::map<std::string, Signal> signals;
 };
+
+/// Readers of DBC files take no other name.
+bool is_c_identifier(const std::string& name) {
+  const auto fits = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  return !name.empty() && std::isdigit(static_cast<unsigned char>(name.front())) == 0 &&
+         std::all_of(name.begin(), name.end(), fits);
+}
 
 std::map<unsigned, Message> read_dbc(const std::string& text) {
   std::map<unsigned, Message> messages;
@@ -71,7 +80,9 @@ std::map<unsigned, Message> read_dbc(const std::string& text) {
                 5)
           << line;
       EXPECT_NE(current, nullptr);
+      EXPECT_TRUE(is_c_identifier(signal)) << line;
       s.is_signed = sign == '-';
+      EXPECT_TRUE(!s.selects || s.factor == 1) << line;
       EXPECT_TRUE(current->signals.emplace(signal, s).second) << line;
       EXPECT_LE(s.start + s.bits, 8 * current->length) << line;
       current->order.emplace_back(signal);
@@ -156,7 +167,7 @@ TEST(Dbc, PackedRecordsDecodeAsTheCodecPacks) {
       frame_of(encode(Segment{.sequence = 101, .duration = 5000, .acceleration = {-2000000, 77}}));
   const Message& m = messages.at(0x402);
   EXPECT_EQ(decode(m, "Sequence", segment), 101);
-  EXPECT_EQ(decode(m, "Duration", segment), 80000);
+  EXPECT_EQ(decode(m, "Duration", segment), 80000 / 16) << "in units of 16 us, by which readers choose";
   const double unit = 8 / 4294967296.0 / (16e-6 * 16e-6);  // of the default shift, counts/s2
   EXPECT_NEAR(decode(m, "Acceleration_A", segment), -2000000 * unit, 1e-6);
   EXPECT_NEAR(decode(m, "Acceleration_B", segment), 77 * unit, 1e-6);
