@@ -129,17 +129,19 @@ SipHashKey random_key() {
 Gateway::Options gateway_options(const journal::State& noted) {
   return {.epoch = static_cast<std::uint8_t>(noted.epoch ? *noted.epoch + 1 : std::random_device{}()),
           .unix_s_at_zero = unix_s_at_zero(),
+          .bus = bus,
           .bus_secret = random_key(),
           .journal = true};
 }
 
 JobLinkServer::Options server_options(const std::string& jobs_folder, MachineFileStore& machine_file,
-                                      std::function<void()> restart) {
+                                      const std::string& bus, std::function<void()> restart) {
   return {.version = KINEBUS_VERSION,
           .gateway_id = gateway_id(jobs_folder),
           .secret = random_bytes(32),
           .machine_mark = machine_mark(machine_file),
           .unix_s_at_zero = unix_s_at_zero(),
+          .bus = bus,
           .restart = std::move(restart)};
 }
 
@@ -165,7 +167,7 @@ Service::Service(const Arguments& arguments)
       machine_file_(arguments.machine, write_machine(machine_)),
       worker_(loop_),
       server_(gateway_, machine_, *store_, worker_, machine_file_, control_,
-              server_options(jobs_folder_, machine_file_, [this] { begins_anew_ = true; })),
+              server_options(jobs_folder_, machine_file_, bus_name_, [this] { begins_anew_ = true; })),
       hub_(loop_),
       host_(loop_, hub_, server_),
       http_host_(loop_, hub_),

@@ -20,9 +20,11 @@ namespace {
 /// So often a running job is looked at for the history; its end is seen at once by its event.
 constexpr LocalTime kRecordPeriod = std::chrono::milliseconds{500};
 
-joblink::MachineInfo info_of(const MachineDescription& machine) {
+joblink::MachineInfo info_of(const MachineDescription& machine, const std::string& bus) {
   const auto kinematics = make_kinematics(machine);
-  return to_message(machine, kinematics ? (*kinematics)->bed_reference() : Pose{});
+  joblink::MachineInfo info = to_message(machine, kinematics ? (*kinematics)->bed_reference() : Pose{});
+  if (!bus.empty()) info.set_bus(bus);
+  return info;
 }
 
 }  // namespace
@@ -37,7 +39,7 @@ JobLinkServer::JobLinkServer(Gateway& gateway, const MachineDescription& machine
       control_(control),
       options_(std::move(options)),
       run_id_(std::make_shared<std::int64_t>(0)),
-      machine_info_(info_of(machine)) {
+      machine_info_(info_of(machine, options_.bus)) {
   worker_.post([&store = store_, mark = options_.machine_mark] { store.set_machine(mark); }, [] {});
 }
 

@@ -65,6 +65,7 @@ class JobLinkServer {
     LocalTime hello_within = std::chrono::seconds{
         10};  ///< of the stream's begin, or of the last client's end; and a visit's length
     Places places{};
+    std::string bus{};  ///< it runs on, as clients are told; empty: the machine file's
     /// The daemon is to begin anew; empty: it cannot.
     std::function<void()> restart{};
   };

@@ -285,6 +285,7 @@ TEST_F(LinkMachineTest, MachineInfoDescribesWhatTheEyeNeeds) {
   EXPECT_EQ(info.kinematics(), "m1");
   EXPECT_EQ(info.legs().legs_size(), 4);
   EXPECT_EQ(info.joints_size(), 6);
+  EXPECT_EQ(info.bus(), LinkRig::bus) << "the one it runs on";
   EXPECT_EQ(info.nodes_size(), 3);
   EXPECT_EQ(info.bodies().table_radius_mm(), 100);
 }

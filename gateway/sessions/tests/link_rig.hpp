@@ -95,6 +95,7 @@ struct LinkedClient {
 
 class LinkRig {
  public:
+  static constexpr const char* bus = "inproc";  ///< whatever the machine file says
   /// `stored`: names of jobs that are there already.
   explicit LinkRig(JobStore::Options options = {}, const std::vector<std::string>& stored = {},
                    MachineDescription of = default_m1())
@@ -107,7 +108,7 @@ class LinkRig {
     server = std::make_unique<JobLinkServer>(
         *machine.gateway, machine.machine, *store, worker, machine_file, control,
         JobLinkServer::Options{
-            .version = "test", .gateway_id = "id", .secret = "secret", .machine_mark = "mark"});
+            .version = "test", .gateway_id = "id", .secret = "secret", .machine_mark = "mark", .bus = bus});
   }
   ~LinkRig() {
     clients.clear();
