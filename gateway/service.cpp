@@ -129,7 +129,6 @@ SipHashKey random_key() {
 Gateway::Options gateway_options(const journal::State& noted) {
   return {.epoch = static_cast<std::uint8_t>(noted.epoch ? *noted.epoch + 1 : std::random_device{}()),
           .unix_s_at_zero = unix_s_at_zero(),
-          .bus = bus,
           .bus_secret = random_key(),
           .journal = true};
 }
