@@ -92,22 +92,24 @@ void StoreFiles::size(const Asked& answer, std::string_view name) {
 }
 
 void StoreFiles::run(const Asked& asker, std::string_view name) {
-  using Opened = Result<std::unique_ptr<ByteSource>, StoreError>;
   worker_.ask(
-      [&store = store_, name = std::string(name)] { return store.open_to_run(name); },
-      [this, asked = std::weak_ptr(asker), name = std::string(name)](Opened source) {
-        // Nobody waits for it any more: M410, M112, a pulled cable.
+      [&store = store_, name = std::string(name), unix_s = static_cast<double>(std::time(nullptr))] {
+        return store.begin_job(name, unix_s);
+      },
+      [this, asked = std::weak_ptr(asker), name = std::string(name)](Result<BegunJob, StoreError> job) {
         const Asked answer = asked.lock();
-        if (!answer) return;
-        answer->done = true;
-        if (!source) {
-          answer->refused = source.error().words.english();
-        } else if (const auto begun = gateway_.carry_out(command::Run{std::move(*source), name}); !begun) {
+        if (!job) {
+          if (answer) answer->refused = job.error().words.english();
+        } else if (!answer) {
+          // Nobody waits for it any more: M410, M112, a pulled cable.
+          server_.job_refused(name, job->run, say("nobody waits for it any more"));
+        } else if (const auto begun = gateway_.carry_out(command::Run{std::move(job->text), name}); !begun) {
+          server_.job_refused(name, job->run, begun.error().words);
           answer->refused = begun.error().words.english();
         } else {
-          worker_.post([&store = store_, name] { store.keep_what_runs(name); }, [] {});
-          server_.job_started(name);
+          server_.job_started(name, job->run);
         }
+        if (answer) answer->done = true;
       });
 }
 

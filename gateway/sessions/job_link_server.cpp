@@ -19,6 +19,8 @@ namespace {
 
 /// So often a running job is looked at for the history; its end is seen at once by its event.
 constexpr LocalTime kRecordPeriod = std::chrono::milliseconds{500};
+/// Of a job that the machine has taken: 0 s are those of one that it would not take.
+constexpr double kShortestRun_s = 0.001;
 
 joblink::MachineInfo info_of(const MachineDescription& machine, const std::string& bus) {
   const auto kinematics = make_kinematics(machine);
@@ -174,10 +176,9 @@ void JobLinkServer::tell(LocalTime now, joblink::Event event) {
 void JobLinkServer::on_event(LocalTime now, const MachineEvent& event) {
   latest_ = now;
   forget_status();
-  // An interrupted job that goes on is a run of its own.
   if (event.kind == MachineEvent::Kind::kState && event.state == MachineState::kRunning &&
       !recorder_.active())
-    job_started(gateway_.status().job);
+    job_goes_on(gateway_.status().job);
   if (const auto ended = recorder_.on_event(event)) record_end(now, *ended);
   tell(now, to_message(event));
 }
@@ -207,7 +208,19 @@ const std::string& JobLinkServer::status_message() {
   return status_bytes_;
 }
 
-void JobLinkServer::job_started(const std::string& name) {
+void JobLinkServer::job_started(const std::string& name, std::int64_t run) {
+  recorder_.begin(latest_);
+  run_id_ = std::make_shared<std::int64_t>(run);
+  worker_.post([&store = store_, name] { store.keep_what_runs(name); }, [] {});
+}
+
+void JobLinkServer::job_refused(const std::string& name, std::int64_t run, const Sentence& why) {
+  worker_.post([&store = store_, name, run, words = why.english(),
+                said = to_message(why).SerializeAsString()] { store.refuse_run(run, name, words, said); },
+               [] {});
+}
+
+void JobLinkServer::job_goes_on(const std::string& name) {
   recorder_.begin(latest_);
   run_id_ = std::make_shared<std::int64_t>(0);
   worker_.post(
@@ -229,8 +242,9 @@ void JobLinkServer::record_end(LocalTime now, const RunRecorder::Ended& end) {
        said = end.first_error.empty() ? std::string() : to_message(end.first_error).SerializeAsString()] {
         if (!goes_on) store.forget_kept();
         if (*id != 0)
-          static_cast<void>(store.end_run(*id, kResults[static_cast<std::size_t>(end.result)], end.duration_s,
-                                          end.estimate_s, end.line, end.first_error, said));
+          static_cast<void>(store.end_run(*id, kResults[static_cast<std::size_t>(end.result)],
+                                          std::max(end.duration_s, kShortestRun_s), end.estimate_s, end.line,
+                                          end.first_error, said));
       },
       [this, now] {
         joblink::Event event;

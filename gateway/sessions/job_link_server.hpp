@@ -84,8 +84,9 @@ class JobLinkServer {
   LocalTime next_deadline() const;
   /// The wall clock may be set while the gateway runs, and often is long after its start.
   void wall_clock(double unix_s_at_zero) { options_.unix_s_at_zero = unix_s_at_zero; }
-  /// Another kind of session has started a stored job: its run belongs to the history, too.
-  void job_started(const std::string& name);
+  /// A stored job that begin_job() gave (JobStore) was given to the machine, and it took it, or would not.
+  void job_started(const std::string& name, std::int64_t run);
+  void job_refused(const std::string& name, std::int64_t run, const Sentence& why);
 
   /// What a request may use to answer, now or later.
   struct Asker {
@@ -123,6 +124,8 @@ class JobLinkServer {
   const joblink::Status& status();
   const std::string& status_message();
   void forget_status() { status_.reset(); }
+  /// An interrupted job goes on: that is a run of its own.
+  void job_goes_on(const std::string& name);
   void record_end(LocalTime now, const RunRecorder::Ended& end);
 
   Gateway& gateway_;

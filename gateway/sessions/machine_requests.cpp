@@ -117,15 +117,17 @@ void MachineRequests::carry_out(const Asker& asker, const ClientMessage& message
 }
 
 void MachineRequests::start(const Asker& asker, const std::string& name) {
-  using Opened = Result<std::unique_ptr<ByteSource>, StoreError>;
   server_.worker_.ask(
-      [&store = server_.store_, name] { return store.open_to_run(name); },
-      [&server = server_, asker, name](Opened source) {
-        if (!source) return server.refuse(asker, problem(source.error()));
-        if (const auto begun = server.gateway_.carry_out(command::Run{std::move(*source), name}); !begun)
+      [&store = server_.store_, name, unix_s = server_.unix_s(server_.latest_)] {
+        return store.begin_job(name, unix_s);
+      },
+      [&server = server_, asker, name](Result<BegunJob, StoreError> job) {
+        if (!job) return server.refuse(asker, problem(job.error()));
+        if (const auto begun = server.gateway_.carry_out(command::Run{std::move(job->text), name}); !begun) {
+          server.job_refused(name, job->run, begun.error().words);
           return server.refuse(asker, problem(begun.error()));
-        server.worker_.post([&store = server.store_, name] { store.keep_what_runs(name); }, [] {});
-        server.job_started(name);
+        }
+        server.job_started(name, job->run);
         server.answer(asker, {});
       });
 }

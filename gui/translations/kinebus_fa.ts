@@ -2625,6 +2625,14 @@
         <translation>این کار در حال اجراست</translation>
     </message>
     <message>
+        <source>%1 was started before: a job of its name runs once</source>
+        <translation>%1 پیش‌تر آغاز شده است: کاری با چنین نامی یک بار اجرا می‌شود</translation>
+    </message>
+    <message>
+        <source>nobody waits for it any more</source>
+        <translation>دیگر کسی منتظر آن نیست</translation>
+    </message>
+    <message>
         <source>too many jobs are being checked: ask again later</source>
         <translation>کارهای زیادی بررسی می‌شوند: بعدتر دوباره بخواهید</translation>
     </message>

@@ -2625,6 +2625,14 @@
         <translation>bu iş çalışıyor</translation>
     </message>
     <message>
+        <source>%1 was started before: a job of its name runs once</source>
+        <translation>%1 daha önce başlatıldı: böyle adlı bir iş bir kez çalışır</translation>
+    </message>
+    <message>
+        <source>nobody waits for it any more</source>
+        <translation>artık onu bekleyen yok</translation>
+    </message>
+    <message>
         <source>too many jobs are being checked: ask again later</source>
         <translation>çok fazla iş kontrol ediliyor: sonra yeniden isteyin</translation>
     </message>

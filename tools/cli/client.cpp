@@ -103,7 +103,7 @@ std::string to_words(const joblink::Problem& problem) {
 
 Client::Client(const Reach& reach, double status_hz, bool events)
     : stream_(open_stream(reach)),
-      link_({.name = "kinebus command line",
+      link_({.name = reach.client,
              .version = KINEBUS_VERSION,
              .token = token_of(reach),
              .status_hz = status_hz,

@@ -11,6 +11,7 @@ constexpr const char* kRunColumns =
     "id, name, hash, begun, duration, estimate, result, line, first_error, said";
 /// Runs kept; the oldest go.
 constexpr std::int64_t kMaxRuns = 10'000;
+constexpr std::string_view kOnceEnding = ".once.gcode";
 
 StoredRun run_of(const Database::Statement& row) {
   StoredRun run;
@@ -57,6 +58,35 @@ Result<std::int64_t, StoreError> JobStore::begin_run(const StoredRun& run) {
   Database::Statement forget(*database_, "DELETE FROM runs WHERE id <= ?");
   static_cast<void>(forget.bind(id - kMaxRuns).finish());
   return id;
+}
+
+bool JobStore::runs_once(std::string_view name) {
+  return name.ends_with(kOnceEnding);
+}
+
+Result<BegunJob, StoreError> JobStore::begin_job(std::string_view name, double now_unix_s) {
+  auto text = open_to_run(name);
+  if (!text) return Error<StoreError>(text.error());
+  const bool once = runs_once(name);
+  if (once && last_run(name))
+    return Error<StoreError>(
+        {StoreError::Kind::kName, say("%1 was started before: a job of its name runs once", name)});
+  StoredRun run{.name = std::string(name), .begun_unix_s = now_unix_s};
+  if (const auto job = find(name)) run.hash = job->hash;
+  const auto id = begin_run(run);
+  if (once && !id) return Error<StoreError>(id.error());
+  return BegunJob{std::move(*text), id ? *id : 0};
+}
+
+void JobStore::refuse_run(std::int64_t id, std::string_view name, std::string_view why,
+                          std::string_view said) {
+  if (id == 0) return;
+  if (runs_once(name)) {
+    static_cast<void>(end_run(id, RunResult::kRefused, 0, 0, 0, why, said));
+    return;
+  }
+  Database::Statement forget(*database_, "DELETE FROM runs WHERE id = ?");
+  static_cast<void>(forget.bind(id).finish());
 }
 
 Result<void, StoreError> JobStore::end_run(std::int64_t id, RunResult result, double duration_s,

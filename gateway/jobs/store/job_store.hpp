@@ -74,6 +74,12 @@ struct RunTotals {
   const Total& of(RunResult result) const { return by_result[static_cast<std::size_t>(result)]; }
 };
 
+/// A job that may be started now.
+struct BegunJob {
+  std::unique_ptr<ByteSource> text{};
+  std::int64_t run = 0;  ///< in the history; 0: it cannot be written
+};
+
 struct StoredJob {
   std::string name;
   std::string hash;
@@ -172,6 +178,14 @@ class JobStore {
   /// Pre-flights in lists are those of this machine file (any text that names it).
   void set_machine(std::string machine) { machine_ = std::move(machine); }
   Result<std::int64_t, StoreError> begin_run(const StoredRun& run);
+  /// A job of such a name (it ends in ".once.gcode") is begun once, whoever asks how often: who manages many
+  /// machines may ask again after any break. So its history must be writable.
+  static bool runs_once(std::string_view name);
+  /// open_to_run(), with the run in the history, on the disk, before anything of it happens: what is not in
+  /// the history has not begun. The caller says by refuse_run() that the machine would not take it.
+  Result<BegunJob, StoreError> begin_job(std::string_view name, double now_unix_s);
+  /// The history forgets it; of a job that runs once, it keeps it: refused, after 0 s.
+  void refuse_run(std::int64_t id, std::string_view name, std::string_view why, std::string_view said);
   Result<void, StoreError> end_run(std::int64_t id, RunResult result, double duration_s, double estimate_s,
                                    std::uint32_t line, std::string_view first_error,
                                    std::string_view said = {});
