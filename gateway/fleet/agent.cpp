@@ -1,0 +1,127 @@
+#include "gateway/fleet/agent.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+namespace kinebus::fleet {
+namespace {
+
+/// Who looks at the machines sees by this that the agent lives.
+constexpr auto kShowAgain = std::chrono::seconds{5};
+constexpr double kProgressStep = 0.01;
+constexpr const char* kNobodyKnows =
+    "the gateway's history does not tell whether it has started: look at the machine, then "
+    "'kinebus-fleet release'";
+
+}  // namespace
+
+void ServedMachine::say(const std::string& words) {
+  if (words == said_) return;
+  said_ = words;
+  if (!words.empty()) fmt::print(stderr, "{}: {}\n", gateway_.machine.name, words);
+}
+
+void ServedMachine::turn() {
+  try {
+    look_and_act();
+    say({});
+  } catch (const ClientError& error) {
+    link_.reset();
+    say(error.what());
+    try {
+      show(shown_.job == 0 ? std::nullopt : std::optional(QueuedJob{.id = shown_.job}), "unreachable",
+           shown_.progress);
+    } catch (const DatabaseError& also) {
+      say(also.what());
+    }
+  } catch (const DatabaseError& error) {
+    say(error.what());
+  }
+}
+
+void ServedMachine::look_and_act() {
+  const auto job = with_queue([&](Queue& queue) { return queue.job_of(gateway_.machine.name); });
+  if (!link_) link_ = std::make_unique<GatewayLink>(gateway_.reach);
+  const GatewayFacts facts = link_->look(job);
+  show(job, facts.state, facts.progress);
+  act(decide(job, facts, policy_), job, facts);
+}
+
+void ServedMachine::act(Action action, const std::optional<QueuedJob>& job, const GatewayFacts& facts) {
+  switch (action) {
+    case Action::kWait:
+      return;
+    case Action::kClaim:
+      with_queue([&](Queue& queue) { return queue.claim(gateway_.machine, facts.newest_run); });
+      return;
+    case Action::kHome:
+      return link_->home();
+    case Action::kCancelRun:
+      return link_->cancel();
+    default:
+      if (job) act_on_job(action, *job, facts);
+  }
+}
+
+void ServedMachine::act_on_job(Action action, const QueuedJob& job, const GatewayFacts& facts) {
+  const std::string& name = gateway_.machine.name;
+  if (action == Action::kStart) {
+    const std::string text = with_queue([&](Queue& queue) { return queue.text(job); });
+    return link_->start(job, text);
+  }
+  if (action == Action::kUseUp) return link_->use_up(job);
+  with_queue([&](Queue& queue) {
+    if (action == Action::kNoteStarted)
+      queue.note_started(name, job);
+    else if (action == Action::kNoteEnded)
+      queue.note_ended(name, job, facts.run->result, facts.run->words);
+    else if (action == Action::kNextAttempt)
+      queue.next_attempt(name, job);
+    else if (action == Action::kNoteNotRun)
+      queue.note_not_run(name, job);
+    else if (action == Action::kAskOperator)
+      queue.say(name, job, kNobodyKnows);
+  });
+  if (action == Action::kNoteEnded || action == Action::kNextAttempt || action == Action::kNoteNotRun)
+    link_->forget(job);
+}
+
+void ServedMachine::show(const std::optional<QueuedJob>& job, const std::string& state, double progress) {
+  const auto now = std::chrono::steady_clock::now();
+  const std::int64_t id = job ? job->id : 0;
+  const bool same =
+      shown_.state == state && shown_.job == id && std::abs(shown_.progress - progress) < kProgressStep;
+  if (same && now - shown_at_ < kShowAgain) return;
+  const Queue::Seen seen{
+      .machine = gateway_.machine, .state = state, .words = said_, .job = id, .progress = progress};
+  with_queue([&](Queue& queue) { queue.note_machine(seen); });
+  shown_ = seen;
+  shown_at_ = now;
+}
+
+void run_agent(const AgentOptions& options, const std::atomic<bool>& quit) {
+  std::vector<std::unique_ptr<SharedQueue>> queues;
+  for (int i = 0; i < std::max(options.connections, 1); ++i)
+    queues.push_back(std::make_unique<SharedQueue>(options.database));
+  std::vector<std::unique_ptr<ServedMachine>> machines;
+  for (const ServedGateway& gateway : options.gateways)
+    machines.push_back(
+        std::make_unique<ServedMachine>(gateway, *queues[machines.size() % queues.size()], options.policy));
+  std::vector<std::thread> threads;
+  for (const auto& machine : machines)
+    threads.emplace_back([&options, &quit, served = machine.get()] {
+      while (!quit) {
+        const auto next = std::chrono::steady_clock::now() + options.period;
+        served->turn();
+        while (!quit && std::chrono::steady_clock::now() < next)
+          std::this_thread::sleep_for(std::min(options.period, std::chrono::milliseconds{200}));
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+}
+
+}  // namespace kinebus::fleet

@@ -1,0 +1,68 @@
+#pragma once
+// Serves gateways: each has a thread that looks at queue and gateway again and again, and does what decide()
+// says. It remembers nothing that matters; what breaks is looked at anew in the next turn.
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gateway/fleet/decision.hpp"
+#include "gateway/fleet/gateway_link.hpp"
+#include "gateway/fleet/gateways_file.hpp"
+#include "gateway/fleet/queue.hpp"
+
+namespace kinebus::fleet {
+
+/// A connection to the queue, for one thread at a time.
+struct SharedQueue {
+  explicit SharedQueue(const std::string& database) : queue(database) {}
+  std::mutex busy;
+  Queue queue;
+};
+
+class ServedMachine {
+ public:
+  ServedMachine(const ServedGateway& gateway, SharedQueue& queue, const Policy& policy)
+      : gateway_(gateway), queue_(queue), policy_(policy) {}
+
+  /// Looks once, and does one thing. Never throws for what the outside does.
+  void turn();
+
+ private:
+  /// `work(queue)` with the queue to itself.
+  template <typename Work>
+  auto with_queue(Work work) {
+    const std::lock_guard lock(queue_.busy);
+    return work(queue_.queue);
+  }
+  void look_and_act();
+  void act(Action action, const std::optional<QueuedJob>& job, const GatewayFacts& facts);
+  void act_on_job(Action action, const QueuedJob& job, const GatewayFacts& facts);
+  void show(const std::optional<QueuedJob>& job, const std::string& state, double progress);
+  void say(const std::string& words);
+
+  ServedGateway gateway_;
+  SharedQueue& queue_;
+  Policy policy_;
+  std::unique_ptr<GatewayLink> link_;
+  std::string said_;  ///< the last words, so that a long break is told once
+  Queue::Seen shown_{};
+  std::chrono::steady_clock::time_point shown_at_{};
+};
+
+struct AgentOptions {
+  std::string database;
+  std::vector<ServedGateway> gateways;
+  Policy policy{};
+  std::chrono::milliseconds period{1000};
+  int connections = 4;
+};
+
+/// Returns soon after `quit` is set.
+void run_agent(const AgentOptions& options, const std::atomic<bool>& quit);
+
+}  // namespace kinebus::fleet
