@@ -1,5 +1,5 @@
 # Debian packages by `cpack -G DEB`: kinebus-daemon and kinebus-cli (with workspace), and, where their libraries are
-# installed, kinebus-gui, kinebus-calibrate and kinebus-compose. Components are named where targets are installed.
+# installed, kinebus-gui, kinebus-fleet, kinebus-calibrate and kinebus-compose. Components are named where targets are installed.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME kinebus)
 set(CPACK_PACKAGE_CONTACT "The Kinebus developers <kinebus@localhost>")
@@ -12,6 +12,13 @@ if(TARGET kinebus-gui)
   set(CPACK_COMPONENT_GUI_DESCRIPTION
     "Kinebus desktop program\n Sends jobs to a Kinebus gateway over USB or a local socket and shows the machine as it prints.")
   set(CPACK_DEBIAN_GUI_PACKAGE_RECOMMENDS "kinebus-daemon, fonts-noto-core | fonts-dejavu-core")
+endif()
+if(TARGET kinebus-fleet)
+  list(APPEND CPACK_COMPONENTS_ALL fleet)
+  set(CPACK_DEBIAN_FLEET_PACKAGE_NAME kinebus-fleet)
+  set(CPACK_COMPONENT_FLEET_DESCRIPTION
+    "Kinebus fleet\n One queue of jobs in PostgreSQL for many Kinebus machines; each job is started exactly once.")
+  set(CPACK_DEBIAN_FLEET_PACKAGE_SUGGESTS postgresql)
 endif()
 if(TARGET kinebus-compose)
   # A package of its own: what it links of CGAL is GPL-3, so this program as a whole is; Kinebus itself is MIT.
