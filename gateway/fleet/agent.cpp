@@ -33,8 +33,7 @@ void ServedMachine::turn() {
     link_.reset();
     say(error.what());
     try {
-      show(shown_.job == 0 ? std::nullopt : std::optional(QueuedJob{.id = shown_.job}), "unreachable",
-           shown_.progress);
+      show({.state = "unreachable", .words = error.what(), .job = shown_.job, .progress = shown_.progress});
     } catch (const DatabaseError& also) {
       say(also.what());
     }
@@ -47,7 +46,7 @@ void ServedMachine::look_and_act() {
   const auto job = with_queue([&](Queue& queue) { return queue.job_of(gateway_.machine.name); });
   if (!link_) link_ = std::make_unique<GatewayLink>(gateway_.reach);
   const GatewayFacts facts = link_->look(job);
-  show(job, facts.state, facts.progress);
+  show({.answers = true, .state = facts.state, .job = job ? job->id : 0, .progress = facts.progress});
   act(decide(job, facts, policy_), job, facts);
 }
 
@@ -90,16 +89,15 @@ void ServedMachine::act_on_job(Action action, const QueuedJob& job, const Gatewa
     link_->forget(job);
 }
 
-void ServedMachine::show(const std::optional<QueuedJob>& job, const std::string& state, double progress) {
+void ServedMachine::show(MachineView view) {
   const auto now = std::chrono::steady_clock::now();
-  const std::int64_t id = job ? job->id : 0;
-  const bool same =
-      shown_.state == state && shown_.job == id && std::abs(shown_.progress - progress) < kProgressStep;
+  const bool same = shown_.answers == view.answers && shown_.state == view.state && shown_.job == view.job &&
+                    std::abs(shown_.progress - view.progress) < kProgressStep;
   if (same && now - shown_at_ < kShowAgain) return;
-  const Queue::Seen seen{
-      .machine = gateway_.machine, .state = state, .words = said_, .job = id, .progress = progress};
-  with_queue([&](Queue& queue) { queue.note_machine(seen); });
-  shown_ = seen;
+  view.machine = gateway_.machine;
+  if (broker_ != nullptr && !same) broker_->show(view);
+  with_queue([&](Queue& queue) { queue.note_machine(view); });
+  shown_ = std::move(view);
   shown_at_ = now;
 }
 
@@ -107,10 +105,11 @@ void run_agent(const AgentOptions& options, const std::atomic<bool>& quit) {
   std::vector<std::unique_ptr<SharedQueue>> queues;
   for (int i = 0; i < std::max(options.connections, 1); ++i)
     queues.push_back(std::make_unique<SharedQueue>(options.database));
+  const auto broker = options.broker ? std::make_unique<Broker>(*options.broker) : nullptr;
   std::vector<std::unique_ptr<ServedMachine>> machines;
   for (const ServedGateway& gateway : options.gateways)
-    machines.push_back(
-        std::make_unique<ServedMachine>(gateway, *queues[machines.size() % queues.size()], options.policy));
+    machines.push_back(std::make_unique<ServedMachine>(gateway, *queues[machines.size() % queues.size()],
+                                                       broker.get(), options.policy));
   std::vector<std::thread> threads;
   for (const auto& machine : machines)
     threads.emplace_back([&options, &quit, served = machine.get()] {

@@ -13,6 +13,7 @@
 #include "gateway/fleet/decision.hpp"
 #include "gateway/fleet/gateway_link.hpp"
 #include "gateway/fleet/gateways_file.hpp"
+#include "gateway/fleet/outward/broker.hpp"
 #include "gateway/fleet/queue.hpp"
 
 namespace kinebus::fleet {
@@ -26,8 +27,9 @@ struct SharedQueue {
 
 class ServedMachine {
  public:
-  ServedMachine(const ServedGateway& gateway, SharedQueue& queue, const Policy& policy)
-      : gateway_(gateway), queue_(queue), policy_(policy) {}
+  /// `broker`: nullptr: there is none.
+  ServedMachine(const ServedGateway& gateway, SharedQueue& queue, Broker* broker, const Policy& policy)
+      : gateway_(gateway), queue_(queue), broker_(broker), policy_(policy) {}
 
   /// Looks once, and does one thing. Never throws for what the outside does.
   void turn();
@@ -42,15 +44,17 @@ class ServedMachine {
   void look_and_act();
   void act(Action action, const std::optional<QueuedJob>& job, const GatewayFacts& facts);
   void act_on_job(Action action, const QueuedJob& job, const GatewayFacts& facts);
-  void show(const std::optional<QueuedJob>& job, const std::string& state, double progress);
+  /// Tells broker and queue, when it has changed.
+  void show(MachineView view);
   void say(const std::string& words);
 
   ServedGateway gateway_;
   SharedQueue& queue_;
+  Broker* broker_;
   Policy policy_;
   std::unique_ptr<GatewayLink> link_;
   std::string said_;  ///< the last words, so that a long break is told once
-  Queue::Seen shown_{};
+  MachineView shown_{};
   std::chrono::steady_clock::time_point shown_at_{};
 };
 
@@ -60,6 +64,7 @@ struct AgentOptions {
   Policy policy{};
   std::chrono::milliseconds period{1000};
   int connections = 4;
+  std::optional<Broker::Options> broker{};
 };
 
 /// Returns soon after `quit` is set.

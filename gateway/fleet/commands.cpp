@@ -1,8 +1,10 @@
 #include "gateway/fleet/commands.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <atomic>
 #include <csignal>
 #include <fstream>
@@ -69,8 +71,9 @@ void add_lists(CLI::App& app, const Where& where) {
   });
   app.add_subcommand("machines", "List the machines as their agents saw them last")->callback([=] {
     for (const Queue::Seen& seen : Queue(*where).machines())
-      fmt::print("{:16}  {:14}  {:>5.1f} %  {:>5.0f} s ago  {}\n", seen.machine.name, seen.state,
-                 100 * seen.progress, seen.seen_s, seen.job == 0 ? "" : fmt::format("job {}", seen.job));
+      fmt::print("{:16}  {:14}  {:>5.1f} %  {:>5.0f} s ago  {}\n", seen.view.machine.name, seen.view.state,
+                 100 * seen.view.progress, seen.seen_s,
+                 seen.view.job == 0 ? "" : fmt::format("job {}", seen.view.job));
   });
 }
 
@@ -98,12 +101,46 @@ void add_changes(CLI::App& app, const Where& where) {
   });
 }
 
+struct BrokerWords {
+  std::string address{}, password_file{};
+  Broker::Options options{};
+};
+
+void add_broker(CLI::App& agent, BrokerWords& broker) {
+  agent.add_option(
+      "--broker", broker.address,
+      "Tell this broker of MQTT (HOST[:PORT]) what the machines do: Sparkplug B, and for Home Assistant "
+      "(default: none)");
+  agent.add_option("--broker-user", broker.options.user, "Its user");
+  agent.add_option("--broker-password-file", broker.password_file, "File of the password")
+      ->check(CLI::ExistingFile);
+  agent.add_option("--group", broker.options.group, "Sparkplug's group (default: kinebus)");
+  agent.add_option("--node", broker.options.node, "Sparkplug's name of this agent (default: the computer's)");
+}
+
+std::optional<Broker::Options> broker_of(const BrokerWords& broker) {
+  if (broker.address.empty()) return std::nullopt;
+  Broker::Options options = broker.options;
+  if (const std::string wrong = read_broker_address(broker.address, options); !wrong.empty())
+    throw std::runtime_error("--broker: " + wrong);
+  if (!broker.password_file.empty()) {
+    std::ifstream in(broker.password_file);
+    std::getline(in, options.password);
+  }
+  std::array<char, 256> host{};
+  if (options.node.empty() && ::gethostname(host.data(), host.size() - 1) == 0) options.node = host.data();
+  for (const std::string* name : {&options.group, &options.node})
+    if (!is_name(*name)) throw std::runtime_error("'" + *name + "': expected " + kNameRule);
+  return options;
+}
+
 void add_agent(CLI::App& app, const Where& where) {
   auto* agent =
       app.add_subcommand("agent", "Serve gateways: fetch jobs that fit, start each once, follow it");
   auto file = std::make_shared<std::string>();
   auto options = std::make_shared<AgentOptions>();
   auto period_s = std::make_shared<double>(1);
+  auto broker = std::make_shared<BrokerWords>();
   agent->add_option("--gateways", *file, "TOML file with a [[gateway]] table for each")
       ->required()
       ->check(CLI::ExistingFile);
@@ -115,7 +152,9 @@ void add_agent(CLI::App& app, const Where& where) {
       ->check(CLI::Range(0.05, 3600.0));
   agent->add_option("--connections", options->connections, "To the database (default: 4)")
       ->check(CLI::Range(1, 64));
+  add_broker(*agent, *broker);
   agent->callback([=] {
+    options->broker = broker_of(*broker);
     auto gateways = read_gateways(read_file(*file));
     if (!gateways) throw std::runtime_error(*file + ": " + gateways.error());
     options->gateways = std::move(*gateways);

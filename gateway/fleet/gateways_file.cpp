@@ -50,6 +50,7 @@ ServedGateway gateway_of(const toml::table& table) {
 
 std::string gateway_wrong(const ServedGateway& gateway, const std::vector<ServedGateway>& before) {
   if (gateway.machine.name.empty()) return "a gateway has a name";
+  if (!is_name(gateway.machine.name)) return "name: expected " + std::string(kNameRule);
   if (gateway.reach.socket.empty() == gateway.reach.tcp.empty()) return "expected socket or tcp, one of them";
   for (const ServedGateway& other : before)
     if (other.machine.name == gateway.machine.name)
@@ -58,6 +59,12 @@ std::string gateway_wrong(const ServedGateway& gateway, const std::vector<Served
 }
 
 }  // namespace
+
+bool is_name(std::string_view name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  });
+}
 
 kinebus::Result<std::vector<ServedGateway>, std::string> read_gateways(std::string_view toml) {
   const toml::parse_result parsed = toml::parse(toml);

@@ -92,16 +92,18 @@ std::vector<Queue::Listed> Queue::jobs(bool over_too, int most) {
 
 std::vector<Queue::Seen> Queue::machines() {
   const Rows rows = database_.run(
-      "SELECT name, kind, material, nozzle_mm, state, words, job, progress,"
+      "SELECT name, kind, material, nozzle_mm, answers, state, words, job, progress,"
       " extract(epoch FROM now() - seen) FROM machines ORDER BY name");
   std::vector<Seen> list;
   for (int row = 0; row < rows.count(); ++row)
-    list.push_back({{rows.text(row, 0), rows.text(row, 1), rows.text(row, 2), rows.real(row, 3)},
-                    rows.text(row, 4),
-                    rows.text(row, 5),
-                    rows.integer(row, 6),
-                    rows.real(row, 7),
-                    rows.real(row, 8)});
+    list.push_back(
+        {.view = {.machine = {rows.text(row, 0), rows.text(row, 1), rows.text(row, 2), rows.real(row, 3)},
+                  .answers = rows.truth(row, 4),
+                  .state = rows.text(row, 5),
+                  .words = rows.text(row, 6),
+                  .job = rows.integer(row, 7),
+                  .progress = rows.real(row, 8)},
+         .seen_s = rows.real(row, 9)});
   return list;
 }
 
@@ -182,14 +184,15 @@ std::string Queue::text(const QueuedJob& job) {
   return text;
 }
 
-void Queue::note_machine(const Seen& seen) {
+void Queue::note_machine(const MachineView& view) {
   database_.run(
-      "INSERT INTO machines VALUES ($1, $2, $3, $4, $5, $6, $7, $8, now()) ON CONFLICT (name) DO UPDATE SET"
+      "INSERT INTO machines VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, now()) ON CONFLICT (name) DO UPDATE "
+      "SET"
       " kind = excluded.kind, material = excluded.material, nozzle_mm = excluded.nozzle_mm,"
-      " state = excluded.state, words = excluded.words, job = excluded.job, progress = excluded.progress,"
-      " seen = excluded.seen",
-      {seen.machine.name, seen.machine.kind, seen.machine.material, seen.machine.nozzle_mm, seen.state,
-       seen.words, seen.job, seen.progress});
+      " answers = excluded.answers, state = excluded.state, words = excluded.words, job = excluded.job,"
+      " progress = excluded.progress, seen = excluded.seen",
+      {view.machine.name, view.machine.kind, view.machine.material, view.machine.nozzle_mm, view.answers,
+       view.state, view.words, view.job, view.progress});
 }
 
 }  // namespace kinebus::fleet

@@ -10,6 +10,7 @@
 
 #include "gateway/fleet/database.hpp"
 #include "gateway/fleet/job.hpp"
+#include "gateway/fleet/machine_view.hpp"
 
 namespace kinebus::fleet {
 
@@ -30,10 +31,7 @@ class Queue {
     std::string name{}, state{}, gateway{}, words{};
   };
   struct Seen {
-    Machine machine{};
-    std::string state{}, words{};
-    std::int64_t job = 0;
-    double progress = 0;
+    MachineView view{};
     double seen_s = 0;  ///< ago
   };
   struct Totals {
@@ -70,7 +68,7 @@ class Queue {
   /// Words for people who look at the job.
   void say(const std::string& gateway, const QueuedJob& job, const std::string& words);
   std::string text(const QueuedJob& job);
-  void note_machine(const Seen& seen);
+  void note_machine(const MachineView& view);
 
  private:
   Database database_;

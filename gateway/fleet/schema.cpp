@@ -33,7 +33,7 @@ CREATE INDEX IF NOT EXISTS jobs_by_state ON jobs(state);
 CREATE TABLE IF NOT EXISTS machines(
   name text PRIMARY KEY,
   kind text NOT NULL, material text NOT NULL, nozzle_mm double precision NOT NULL,
-  state text NOT NULL, words text NOT NULL,
+  answers boolean NOT NULL, state text NOT NULL, words text NOT NULL,
   job bigint NOT NULL, progress double precision NOT NULL,
   seen timestamptz NOT NULL
 );

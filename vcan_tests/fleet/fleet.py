@@ -6,6 +6,7 @@ import pathlib
 import pwd
 import shutil
 import signal
+import socket
 import subprocess
 import tempfile
 import time
@@ -70,6 +71,24 @@ class Database(Process):
         return subprocess.run([POSTGRES[-1].parent / "pg_isready", "-q", "-h", self.folder], check=False).returncode == 0
 
 
+class Broker(Process):
+    """Mosquitto, which forgets all when it is killed."""
+
+    def __init__(self, folder):
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            self.port = free.getsockname()[1]
+        settings = folder / "mosquitto.conf"
+        settings.write_text(f"listener {self.port} 127.0.0.1\nallow_anonymous true\npersistence false\n")
+        super().__init__(folder / "broker.log", shutil.which("mosquitto") or "/usr/sbin/mosquitto", "-c", settings)
+
+    def hear(self, topic, count, seconds=20):
+        """The next messages as (topic, payload), fewer when no more come within the time."""
+        heard = subprocess.run(["mosquitto_sub", "-p", str(self.port), "-t", topic, "-C", str(count), "-W", str(seconds), "-F", "%t %x"],
+                               check=False, text=True, capture_output=True)
+        return [(line.split()[0], bytes.fromhex(line.split()[1])) for line in heard.stdout.splitlines()]
+
+
 class Fleet:
     """`agents` serve all gateways, each of them."""
 
@@ -79,23 +98,25 @@ class Fleet:
         self.folder = pathlib.Path(self.temporary.name)
         self.folder.chmod(0o755)
         self.database = Database(self.folder)
+        self.broker = Broker(self.folder)
         self.gateways, text = {}, ""
         for number in range(gateways):
             name = f"gateway{number}"
-            socket = self.folder / f"{name}.sock"
-            self.gateways[name] = Process(self.folder / f"{name}.log", self.bin / "kinebusd", "--bus", "inproc", "--socket", socket,
+            place = self.folder / f"{name}.sock"
+            self.gateways[name] = Process(self.folder / f"{name}.log", self.bin / "kinebusd", "--bus", "inproc", "--socket", place,
                                           "--jobs", self.folder / name / "jobs", "--flight", self.folder / name / "flight",
                                           "--no-realtime", "--no-mdns")
             (self.folder / name).mkdir()
-            text += f'[[gateway]]\nname = "{name}"\nsocket = "{socket}"\nkind = "m1"\nmaterial = "PLA"\nnozzle_mm = 0.4\n'
+            text += f'[[gateway]]\nname = "{name}"\nsocket = "{place}"\nkind = "m1"\nmaterial = "PLA"\nnozzle_mm = 0.4\n'
         (self.folder / "gateways.toml").write_text(text)
         self.agents = [Process(self.folder / f"agent{n}.log", self.bin / "kinebus-fleet", "--database", self.database.where, "agent",
-                               "--gateways", self.folder / "gateways.toml", "--home", "--give-up", "--period", "0.2")
+                               "--gateways", self.folder / "gateways.toml", "--home", "--give-up", "--period", "0.2",
+                               "--broker", f"127.0.0.1:{self.broker.port}", "--node", f"agent{n}")
                        for n in range(agents)]
 
     def __enter__(self):
         try:
-            for process in [self.database, *self.gateways.values()]:
+            for process in [self.broker, self.database, *self.gateways.values()]:
                 process.start()
             until("the database answers", self.database.answers)
             self.fleet("init")
@@ -107,7 +128,7 @@ class Fleet:
         return self
 
     def __exit__(self, *_):
-        for process in [*self.agents, *self.gateways.values(), self.database]:
+        for process in [*self.agents, *self.gateways.values(), self.database, self.broker]:
             process.stop()
         keep = os.environ.get("KINEBUS_FLEET_KEEP")
         if keep:

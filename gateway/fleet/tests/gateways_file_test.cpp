@@ -25,6 +25,8 @@ TEST(GatewaysFile, RefusesWhatIsWrongWithItsPlace) {
       {"gateway = 3", "line 1: expected [[gateway]], one for each machine"},
       {"x = 3", "line 1: there is no 'x' in such a file; expected [[gateway]]"},
       {"[[gateway]]\nsocket = \"s\"", "line 1: a gateway has a name"},
+      {"[[gateway]]\nname = \"a/b\"",
+       "line 1: name: expected letters without accents, digits, - and _ alone"},
       {"[[gateway]]\nname = \"a\"", "line 1: expected socket or tcp, one of them"},
       {"[[gateway]]\nname = 3", "line 2: name: expected a text in quotes"},
       {"[[gateway]]\nname = \"a\"\nsocket = \"s\"\nnozzle_mm = -1",
