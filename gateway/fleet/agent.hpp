@@ -60,7 +60,7 @@ class ServedMachine {
 
 struct AgentOptions {
   std::string database;
-  std::vector<ServedGateway> gateways;
+  std::vector<ServedGateway> gateways{};
   Policy policy{};
   std::chrono::milliseconds period{1000};
   int connections = 4;

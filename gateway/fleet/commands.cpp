@@ -14,7 +14,9 @@
 #include <string>
 
 #include "gateway/fleet/agent.hpp"
+#include "gateway/fleet/demo/demo.hpp"
 #include "gateway/fleet/queue.hpp"
+#include "gateway/fleet/wall/wall_server.hpp"
 
 namespace kinebus::fleet {
 namespace {
@@ -25,6 +27,11 @@ constexpr int kMostCopies = 100'000;
 std::atomic<bool> quit{false};
 
 using Where = std::shared_ptr<std::string>;
+
+void quit_on_signals() {
+  std::signal(SIGINT, [](int) { quit = true; });
+  std::signal(SIGTERM, [](int) { quit = true; });
+}
 
 std::string read_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
@@ -160,9 +167,32 @@ void add_agent(CLI::App& app, const Where& where) {
     options->gateways = std::move(*gateways);
     options->database = *where;
     options->period = std::chrono::milliseconds(static_cast<std::int64_t>(*period_s * 1000));
-    std::signal(SIGINT, [](int) { quit = true; });
-    std::signal(SIGTERM, [](int) { quit = true; });
+    quit_on_signals();
     run_agent(*options, quit);
+  });
+}
+
+void add_serve(CLI::App& app, const Where& where) {
+  auto* serve = app.add_subcommand("serve", "Show the wall of machines to browsers of this computer");
+  auto address = std::make_shared<std::string>("127.0.0.1:7450");
+  serve->add_option("--http", *address, "ADDRESS:PORT (default: 127.0.0.1:7450)");
+  serve->callback([=] {
+    quit_on_signals();
+    serve_wall(*where, *address, quit);
+  });
+}
+
+void add_demo(CLI::App& app) {
+  auto* demo = app.add_subcommand(
+      "demo",
+      "Show a fleet on this computer: its own database and broker, simulated machines, jobs, the wall");
+  auto options = std::make_shared<DemoOptions>();
+  demo->add_option("--machines", options->machines, "default: 10")->check(CLI::Range(1, 99));
+  demo->add_option("--jobs", options->jobs, "default: 30")->check(CLI::Range(0, 10'000));
+  demo->add_option("--http", options->http, "ADDRESS:PORT of the wall (default: 127.0.0.1:7450)");
+  demo->callback([=] {
+    quit_on_signals();
+    run_demo(*options, quit);
   });
 }
 
@@ -181,6 +211,8 @@ void add_commands(CLI::App& app) {
   add_lists(app, where);
   add_changes(app, where);
   add_agent(app, where);
+  add_serve(app, where);
+  add_demo(app);
 }
 
 }  // namespace kinebus::fleet

@@ -23,10 +23,10 @@ struct ClientError : std::runtime_error {
 /// How to reach a daemon.
 struct Reach {
   std::string client = "kinebus command line";  ///< what the others see
-  std::string socket;       ///< local; empty: $KINEBUS_SOCKET, else the first of the usual places that exists
-  std::string tcp;          ///< HOST:PORT instead of the local socket
-  std::string fingerprint;  ///< of the gateway's certificate (TCP)
-  std::string token_file;   ///< TCP
+  std::string socket{};  ///< local; empty: $KINEBUS_SOCKET, else the first of the usual places that exists
+  std::string tcp{};     ///< HOST:PORT instead of the local socket
+  std::string fingerprint{};  ///< of the gateway's certificate (TCP)
+  std::string token_file{};   ///< TCP
 };
 
 class Client {
