@@ -12,6 +12,8 @@ namespace {
 
 /// Who looks at the machines sees by this that the agent lives.
 constexpr auto kShowAgain = std::chrono::seconds{5};
+/// From a result over the next claim to its start.
+constexpr int kMostInATurn = 6;
 constexpr double kProgressStep = 0.01;
 constexpr const char* kNobodyKnows =
     "the gateway's history does not tell whether it has started: look at the machine, then "
@@ -27,7 +29,7 @@ void ServedMachine::say(const std::string& words) {
 
 void ServedMachine::turn() {
   try {
-    look_and_act();
+    for (int done = 0; done < kMostInATurn && look_and_act();) ++done;
     say({});
   } catch (const ClientError& error) {
     link_.reset();
@@ -42,27 +44,33 @@ void ServedMachine::turn() {
   }
 }
 
-void ServedMachine::look_and_act() {
+bool ServedMachine::look_and_act() {
   const auto job = with_queue([&](Queue& queue) { return queue.job_of(gateway_.machine.name); });
   if (!link_) link_ = std::make_unique<GatewayLink>(gateway_.reach);
   const GatewayFacts facts = link_->look(job);
   show({.answers = true, .state = facts.state, .job = job ? job->id : 0, .progress = facts.progress});
-  act(decide(job, facts, policy_), job, facts);
+  return act(decide(job, facts, policy_), job, facts);
 }
 
-void ServedMachine::act(Action action, const std::optional<QueuedJob>& job, const GatewayFacts& facts) {
+bool ServedMachine::act(Action action, const std::optional<QueuedJob>& job, const GatewayFacts& facts) {
   switch (action) {
     case Action::kWait:
-      return;
+      return false;
     case Action::kClaim:
-      with_queue([&](Queue& queue) { return queue.claim(gateway_.machine, facts.newest_run); });
-      return;
+      return with_queue(
+          [&](Queue& queue) { return queue.claim(gateway_.machine, facts.newest_run).has_value(); });
     case Action::kHome:
-      return link_->home();
+      link_->home();
+      return false;
     case Action::kCancelRun:
-      return link_->cancel();
+      link_->cancel();
+      return false;
+    case Action::kAskOperator:
+      with_queue([&](Queue& queue) { queue.say(gateway_.machine.name, *job, kNobodyKnows); });
+      return false;
     default:
-      if (job) act_on_job(action, *job, facts);
+      act_on_job(action, *job, facts);
+      return true;
   }
 }
 
@@ -82,8 +90,6 @@ void ServedMachine::act_on_job(Action action, const QueuedJob& job, const Gatewa
       queue.next_attempt(name, job);
     else if (action == Action::kNoteNotRun)
       queue.note_not_run(name, job);
-    else if (action == Action::kAskOperator)
-      queue.say(name, job, kNobodyKnows);
   });
   if (action == Action::kNoteEnded || action == Action::kNextAttempt || action == Action::kNoteNotRun)
     link_->forget(job);

@@ -31,7 +31,7 @@ class ServedMachine {
   ServedMachine(const ServedGateway& gateway, SharedQueue& queue, Broker* broker, const Policy& policy)
       : gateway_(gateway), queue_(queue), broker_(broker), policy_(policy) {}
 
-  /// Looks once, and does one thing. Never throws for what the outside does.
+  /// Looks, and does what is to be done until there is nothing. Never throws for what the outside does.
   void turn();
 
  private:
@@ -41,8 +41,9 @@ class ServedMachine {
     const std::lock_guard lock(queue_.busy);
     return work(queue_.queue);
   }
-  void look_and_act();
-  void act(Action action, const std::optional<QueuedJob>& job, const GatewayFacts& facts);
+  /// False: there is nothing to be done now.
+  bool look_and_act();
+  bool act(Action action, const std::optional<QueuedJob>& job, const GatewayFacts& facts);
   void act_on_job(Action action, const QueuedJob& job, const GatewayFacts& facts);
   /// Tells broker and queue, when it has changed.
   void show(MachineView view);

@@ -30,7 +30,8 @@ CREATE TABLE IF NOT EXISTS jobs(
 CREATE UNIQUE INDEX IF NOT EXISTS one_job_a_gateway ON jobs(gateway) WHERE state IN ('assigned', 'started');
 CREATE INDEX IF NOT EXISTS jobs_waiting ON jobs(priority DESC, id) WHERE state = 'queued';
 CREATE INDEX IF NOT EXISTS jobs_by_state ON jobs(state);
-CREATE TABLE IF NOT EXISTS machines(
+-- What machines do now is told again by their agents: it need not outlive a crash.
+CREATE UNLOGGED TABLE IF NOT EXISTS machines(
   name text PRIMARY KEY,
   kind text NOT NULL, material text NOT NULL, nozzle_mm double precision NOT NULL,
   answers boolean NOT NULL, state text NOT NULL, words text NOT NULL,
