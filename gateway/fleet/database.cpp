@@ -64,6 +64,7 @@ void Database::Close::operator()(pg_conn* connection) const {
 pg_conn* Database::connection() {
   if (connection_ != nullptr && PQstatus(connection_.get()) != CONNECTION_OK) connection_.reset();
   if (connection_ == nullptr) {
+    prepared_.clear();
     // What is said in `where_` comes last, and so counts.
     const char* names[] = {"connect_timeout", "tcp_user_timeout", "application_name", "dbname", nullptr};
     const char* values[] = {"5", "20000", "kinebus-fleet", where_.c_str(), nullptr};
@@ -91,7 +92,19 @@ pg_result* Database::checked(pg_result* result) {
   throw DatabaseError(words);
 }
 
-Rows Database::run(const char* sql, const std::vector<Parameter>& parameters) {
+/// Planning takes longer than most of these statements.
+const char* Database::prepared(const std::string& sql) {
+  pg_conn* const to = connection();
+  auto found = prepared_.find(sql);
+  if (found == prepared_.end()) {
+    const std::string name = "s" + std::to_string(prepared_.size());
+    PQclear(checked(PQprepare(to, name.c_str(), sql.c_str(), 0, nullptr)));
+    found = prepared_.emplace(sql, name).first;
+  }
+  return found->second.c_str();
+}
+
+Rows Database::run(const std::string& sql, const std::vector<Parameter>& parameters) {
   std::vector<const char*> values;
   std::vector<int> lengths, formats;
   for (const Parameter& parameter : parameters) {
@@ -99,9 +112,9 @@ Rows Database::run(const char* sql, const std::vector<Parameter>& parameters) {
     lengths.push_back(static_cast<int>(parameter.text.size()));
     formats.push_back(parameter.binary ? 1 : 0);
   }
-  pg_conn* const to = connection();
-  return Rows(checked(PQexecParams(to, sql, static_cast<int>(values.size()), nullptr, values.data(),
-                                   lengths.data(), formats.data(), 0)));
+  const char* const name = prepared(sql);
+  return Rows(checked(PQexecPrepared(connection_.get(), name, static_cast<int>(values.size()), values.data(),
+                                     lengths.data(), formats.data(), 0)));
 }
 
 void Database::run_all(const char* sql) {

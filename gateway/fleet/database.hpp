@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 struct pg_conn;
@@ -58,7 +60,8 @@ class Database {
  public:
   /// `where`: as libpq reads it ("host=... dbname=...", or a URI). Connects when it is first asked.
   explicit Database(std::string where) : where_(std::move(where)) {}
-  Rows run(const char* sql, const std::vector<Parameter>& parameters = {});
+  /// The statement is prepared when it first comes: it must be one of a few.
+  Rows run(const std::string& sql, const std::vector<Parameter>& parameters = {});
   /// Several statements without parameters, as one transaction.
   void run_all(const char* sql);
 
@@ -68,9 +71,11 @@ class Database {
   };
   pg_conn* connection();
   pg_result* checked(pg_result* result);
+  const char* prepared(const std::string& sql);
 
   std::string where_;
   std::unique_ptr<pg_conn, Close> connection_;
+  std::unordered_map<std::string, std::string> prepared_;  ///< of this connection: its name by its text
 };
 
 }  // namespace kinebus::fleet

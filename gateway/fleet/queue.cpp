@@ -13,6 +13,7 @@ WHERE id = (
   SELECT id FROM jobs WHERE state = 'queued' AND (kind = '' OR kind = $2) AND (material = '' OR material = $3)
     AND (nozzle_mm = 0 OR abs(nozzle_mm - $4::double precision) < 0.001)
   ORDER BY priority DESC, id LIMIT 1 FOR UPDATE SKIP LOCKED)
+RETURNING id
 )sql";
 
 /// The rest of each statement that speaks for one start: another agent may have done it, or an operator.
@@ -132,8 +133,9 @@ std::optional<QueuedJob> Queue::job_of(const std::string& gateway) {
 
 std::optional<QueuedJob> Queue::claim(const Machine& machine, std::uint64_t newest_run) {
   try {
-    database_.run(kClaim, {machine.name, machine.kind, machine.material, machine.nozzle_mm,
-                           static_cast<std::int64_t>(newest_run)});
+    const Rows claimed = database_.run(kClaim, {machine.name, machine.kind, machine.material,
+                                                machine.nozzle_mm, static_cast<std::int64_t>(newest_run)});
+    if (claimed.count() == 0) return std::nullopt;
   } catch (const NotUnique&) {
     // Another agent of this gateway was faster.
   }
@@ -141,8 +143,7 @@ std::optional<QueuedJob> Queue::claim(const Machine& machine, std::uint64_t newe
 }
 
 void Queue::note_started(const std::string& gateway, const QueuedJob& job) {
-  database_.run((std::string("UPDATE jobs SET state = 'started',") + kThisStart).c_str(),
-                start(job, gateway));
+  database_.run(std::string("UPDATE jobs SET state = 'started',") + kThisStart, start(job, gateway));
 }
 
 void Queue::note_ended(const std::string& gateway, const QueuedJob& job, Result result,
@@ -150,28 +151,25 @@ void Queue::note_ended(const std::string& gateway, const QueuedJob& job, Result 
   auto parameters = start(job, gateway);
   parameters.emplace_back(to_word(result));
   parameters.emplace_back(words);
-  database_.run((std::string("UPDATE jobs SET state = $4, words = $5,") + kThisStart).c_str(), parameters);
+  database_.run(std::string("UPDATE jobs SET state = $4, words = $5,") + kThisStart, parameters);
 }
 
 void Queue::note_not_run(const std::string& gateway, const QueuedJob& job) {
-  database_.run((std::string("UPDATE jobs SET state = CASE WHEN cancel THEN 'cancelled' ELSE 'queued' END,"
-                             " gateway = '',") +
-                 kThisStart)
-                    .c_str(),
+  database_.run(std::string("UPDATE jobs SET state = CASE WHEN cancel THEN 'cancelled' ELSE 'queued' END,"
+                            " gateway = '',") +
+                    kThisStart,
                 start(job, gateway));
 }
 
 void Queue::next_attempt(const std::string& gateway, const QueuedJob& job) {
-  database_.run(
-      (std::string("UPDATE jobs SET state = 'assigned', attempt = attempt + 1,") + kThisStart).c_str(),
-      start(job, gateway));
+  database_.run(std::string("UPDATE jobs SET state = 'assigned', attempt = attempt + 1,") + kThisStart,
+                start(job, gateway));
 }
 
 void Queue::say(const std::string& gateway, const QueuedJob& job, const std::string& words) {
   auto parameters = start(job, gateway);
   parameters.emplace_back(words);
-  database_.run((std::string("UPDATE jobs SET words = $4,") + kThisStart + " AND words <> $4").c_str(),
-                parameters);
+  database_.run(std::string("UPDATE jobs SET words = $4,") + kThisStart + " AND words <> $4", parameters);
 }
 
 std::string Queue::text(const QueuedJob& job) {
