@@ -139,6 +139,10 @@ class Fleet:
         return subprocess.run([self.bin / "kinebus-fleet", "--database", self.database.where, *arguments], check=check, text=True,
                               capture_output=True)
 
+    def kinebus(self, gateway, *arguments):
+        return subprocess.run([self.bin / "kinebus", "--socket", self.folder / f"{gateway}.sock", *arguments], check=False, text=True,
+                              capture_output=True)
+
     def add(self, text, *arguments):
         path = self.folder / "part.gcode"
         path.write_text(text)
@@ -157,8 +161,7 @@ class Fleet:
     def history(self, gateway):
         """Its runs, the newest first; a gateway that does not answer is asked again."""
         def ask():
-            found = subprocess.run([self.bin / "kinebus", "--as-json", "--socket", self.folder / f"{gateway}.sock", "history"],
-                                   check=False, text=True, capture_output=True)
+            found = self.kinebus(gateway, "--as-json", "history")
             return [json.loads(found.stdout)] if found.returncode == 0 else None
         return until(f"{gateway} tells its history", ask)[0].get("runs", [])
 
