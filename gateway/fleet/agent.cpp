@@ -113,10 +113,12 @@ void run_agent(const AgentOptions& options, const std::atomic<bool>& quit) {
     queues.push_back(std::make_unique<SharedQueue>(options.database));
   const auto broker = options.broker ? std::make_unique<Broker>(*options.broker) : nullptr;
   std::vector<std::unique_ptr<ServedMachine>> machines;
+  machines.reserve(options.gateways.size());
   for (const ServedGateway& gateway : options.gateways)
     machines.push_back(std::make_unique<ServedMachine>(gateway, *queues[machines.size() % queues.size()],
                                                        broker.get(), options.policy));
   std::vector<std::thread> threads;
+  threads.reserve(machines.size());
   for (const auto& machine : machines)
     threads.emplace_back([&options, &quit, served = machine.get()] {
       while (!quit) {

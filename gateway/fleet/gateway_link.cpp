@@ -116,7 +116,7 @@ std::optional<TicketRun> GatewayLink::find_run(const QueuedJob& job, bool& short
 }
 
 joblink::Reply GatewayLink::command(ClientMessage message) {
-  const joblink::Reply reply = client_.ask(std::move(message));
+  joblink::Reply reply = client_.ask(std::move(message));
   client_.release_control();  // people may command the machine, too
   return reply;
 }

@@ -54,6 +54,7 @@ std::vector<std::int64_t> Queue::add(std::string_view text, const Order& order) 
       {order.name, Parameter::bytes(hash), order.kind, order.material, order.nozzle_mm, order.priority,
        order.copies});
   std::vector<std::int64_t> ids;
+  ids.reserve(static_cast<std::size_t>(rows.count()));
   for (int row = 0; row < rows.count(); ++row) ids.push_back(rows.integer(row, 0));
   return ids;
 }
@@ -85,6 +86,7 @@ std::vector<Queue::Listed> Queue::jobs(bool over_too, int most) {
       " ORDER BY state = 'queued', priority DESC, id LIMIT $2",
       {over_too, most});
   std::vector<Listed> list;
+  list.reserve(static_cast<std::size_t>(rows.count()));
   for (int row = 0; row < rows.count(); ++row)
     list.push_back({rows.integer(row, 0), static_cast<int>(rows.integer(row, 1)), rows.text(row, 2),
                     rows.text(row, 3), rows.text(row, 4), rows.text(row, 5)});
@@ -96,6 +98,7 @@ std::vector<Queue::Seen> Queue::machines() {
       "SELECT name, kind, material, nozzle_mm, answers, state, words, job, progress,"
       " extract(epoch FROM now() - seen) FROM machines ORDER BY name");
   std::vector<Seen> list;
+  list.reserve(static_cast<std::size_t>(rows.count()));
   for (int row = 0; row < rows.count(); ++row)
     list.push_back(
         {.view = {.machine = {rows.text(row, 0), rows.text(row, 1), rows.text(row, 2), rows.real(row, 3)},

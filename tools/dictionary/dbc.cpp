@@ -97,11 +97,13 @@ void print(std::string& text, const Message& message) {
     const std::string multiplex = multiplexing(message, s);
     // Some readers choose by the scaled value, others by the raw one: of a selector they are the same.
     const bool selects = multiplex.ends_with('M') && s.factor != 1;
-    const std::string unit = selects ? decimal(s.factor) + " " + s.unit : s.unit;
+    std::string unit = s.unit;
+    if (selects) unit.insert(0, " ").insert(0, decimal(s.factor));
     // Ranges are left open (0|0): a 56-bit range has no exact decimal in common readers.
-    text += " SG_ " + s.name + multiplex + " : " + std::to_string(s.start) + "|" + std::to_string(s.bits) +
-            "@1" + (s.is_signed ? "-" : "+") + " (" + decimal(selects ? 1 : s.factor) + ",0) [0|0] \"" +
-            unit + "\" " + message.receiver + "\n";
+    text.append(" SG_ ").append(s.name).append(multiplex).append(" : ").append(std::to_string(s.start));
+    text.append("|").append(std::to_string(s.bits)).append(s.is_signed ? "@1- (" : "@1+ (");
+    text.append(decimal(selects ? 1 : s.factor)).append(",0) [0|0] \"").append(unit).append("\" ");
+    text.append(message.receiver).append("\n");
   }
   text += "\n";
 }

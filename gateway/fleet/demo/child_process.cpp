@@ -48,6 +48,7 @@ Rights rights_of(const std::string& user) {
 ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::string& log,
                            const std::string& user) {
   std::vector<char*> words;
+  words.reserve(command.size() + 1);
   for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
   const Rights rights = user.empty() ? Rights() : rights_of(user);
