@@ -24,13 +24,13 @@ namespace {
 /// PostgreSQL takes a value of 1 GB at most, and it is in memory several times on its way.
 constexpr std::size_t kMostBytes = 256U << 20;
 constexpr int kMostCopies = 100'000;
-std::atomic<bool> quit{false};
+std::atomic<bool> asked_to_end{false};
 
 using Where = std::shared_ptr<std::string>;
 
 void quit_on_signals() {
-  std::signal(SIGINT, [](int) { quit = true; });
-  std::signal(SIGTERM, [](int) { quit = true; });
+  std::signal(SIGINT, [](int) { asked_to_end = true; });
+  std::signal(SIGTERM, [](int) { asked_to_end = true; });
 }
 
 std::string read_file(const std::string& path) {
@@ -168,7 +168,7 @@ void add_agent(CLI::App& app, const Where& where) {
     options->database = *where;
     options->period = std::chrono::milliseconds(static_cast<std::int64_t>(*period_s * 1000));
     quit_on_signals();
-    run_agent(*options, quit);
+    run_agent(*options, asked_to_end);
   });
 }
 
@@ -178,7 +178,7 @@ void add_serve(CLI::App& app, const Where& where) {
   serve->add_option("--http", *address, "ADDRESS:PORT (default: 127.0.0.1:7450)");
   serve->callback([=] {
     quit_on_signals();
-    serve_wall(*where, *address, quit);
+    serve_wall(*where, *address, asked_to_end);
   });
 }
 
@@ -192,7 +192,7 @@ void add_demo(CLI::App& app) {
   demo->add_option("--http", options->http, "ADDRESS:PORT of the wall (default: 127.0.0.1:7450)");
   demo->callback([=] {
     quit_on_signals();
-    run_demo(*options, quit);
+    run_demo(*options, asked_to_end);
   });
 }
 
