@@ -8,6 +8,7 @@ const kLowest = 50;
 
 export class Heaters {
   #rows = [];
+  #known = false;  // until nodes have come up, what they measure is not
   #course = new Course(at('graph'), kLowest);
 
   constructor({ ask }) {
@@ -87,6 +88,7 @@ export class Heaters {
     this.#rows.forEach((row, i) => {
       if (found[i]) row.now.textContent = `${number(found[i].actual_celsius, 1)} / ${number(found[i].target_celsius)} °C`;
     });
-    this.#course.add(found.map((heater) => heater?.actual_celsius));
+    this.#known ||= status.state !== 'STATE_OFF' && status.state !== 'STATE_BRING_UP';
+    if (this.#known) this.#course.add(found.map((heater) => heater?.actual_celsius));
   }
 }
