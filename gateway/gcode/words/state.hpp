@@ -156,6 +156,7 @@ struct ToolEntry {
   int tool = 0;
   std::array<double, 3> offset_mm{};
   double diameter_mm = 0;
+  int orientation = 0;  ///< of a lathe's tool: where its tip is, as LinuxCNC counts; 0 and 9: in its middle
 };
 
 /// Of M70 and M73; without modes nothing is kept.
