@@ -197,6 +197,7 @@ class Runner {
   bool waits(const canonical::Line& line) const;
   void end_wait();
   void control_rate(BusTime now);
+  double wanted_rate(BusTime now);
   bool waits_for_journal(BusTime now) const;
   /// In motion, as gently as the joints have to be treated.
   void change_rate(double rate, BusTime now);
@@ -277,6 +278,7 @@ class Runner {
   SmoothRamp smooth_ramp_;
   SpindleFollower follower_;
   Tap tap_;
+  SpindleFollower per_turn_;  ///< of the moves whose feed goes by the measured speed
   std::uint64_t thread_from_ = 0;  ///< the pass's first phase
   bool thread_over_ = false;       ///< its last one came from the pipeline
   bool hold_waits_ = false;        ///< for its end

@@ -59,6 +59,11 @@ double SpindleFollower::ratio(BusTime at) const {
   return per_s_at(at) / planned_per_s_;
 }
 
+std::optional<double> SpindleFollower::ratio_if_known(BusTime at) const {
+  if (!first_ || at - *first_ < kSettle) return std::nullopt;
+  return ratio(at);
+}
+
 double SpindleFollower::behind(BusTime at, PathTime tau) const {
   return turns_at(at) - start_turns_ - to_seconds(tau - start_tau_) * planned_per_s_;
 }

@@ -26,6 +26,8 @@ class SpindleFollower {
 
   /// Of the spindle's speed then to that of the plan.
   double ratio(BusTime at) const;
+  /// Nothing: no angle has come yet, or not for long enough.
+  std::optional<double> ratio_if_known(BusTime at) const;
   /// How far path time `tau` is behind the spindle at `at`, turns.
   double behind(BusTime at, PathTime tau) const;
   double planned_turns_per_s() const { return planned_per_s_; }

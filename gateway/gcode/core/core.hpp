@@ -280,6 +280,8 @@ class Core {
   bool spindle_mode();
   /// Under G96: the speed for where the tool is.
   void follow_surface(bool now);
+  /// Whether feed goes by the measured speed, and which it is planned for.
+  void tell_feed_per_turn();
   double surface_rpm() const;
   bool thermal(Code code);
   bool value_by_p(Code code);

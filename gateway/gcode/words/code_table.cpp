@@ -107,7 +107,7 @@ constexpr std::array kG = {
     g(923, G::kNonmodal, "", "restore the G92 offset"),
     g(930, G::kFeedMode, "", "F is the inverse of the move's time in minutes"),
     g(940, G::kFeedMode, "", "F is per minute"),
-    g(950, G::kFeedMode, "", "F is per turn of the spindle, at the speed S that is asked for: the path does not follow the spindle itself"),
+    g(950, G::kFeedMode, "", "F is per turn of the spindle: at the speed S that is asked for, and with an encoder on it as much slower as it is measured"),
     g(960, G::kSpindleMode, "S D", "constant surface speed: S in m/min (G20: feet/min) at the distance X from the zero point, at most D turns a minute; set where traverses end and where the spindle begins to turn, not within a cut"),
     g(970, G::kSpindleMode, "S", "S is the spindle's speed"),
     g(980, G::kRetract, "", "canned cycles go back to where the first of them began"),

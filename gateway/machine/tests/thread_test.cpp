@@ -312,5 +312,81 @@ TEST_F(Taps, G84IsRigidWhereTheSpindleCanBeTurnedBack) {
   EXPECT_NEAR(rig.joints()[0], 40, 1e-3);
 }
 
+/// What is fed at each look, against the turns that the spindle makes meanwhile.
+class FeedPerTurn : public Threads {
+ protected:
+  struct Cut {
+    double mm = 0, turns = 0;
+    double least = 1e9, most = 0;  ///< mm a turn over a quarter of a second
+  };
+  Cut cut_between(double from, double to) {
+    Cut cut;
+    std::optional<std::pair<double, double>> begin, mark;
+    BusTime marked{0};
+    EXPECT_TRUE(rig.run_until(
+        [&] {
+          const SpindleStatus spindle = rig.gateway->status().spindle;
+          const double x = rig.joints()[0];
+          if (!spindle.angle || spindle.angle->at != rig.now || x < from) return x > to;
+          if (!begin) begin = mark = {x, spindle.angle->turns}, marked = rig.now;
+          cut.mm = x - begin->first;
+          cut.turns = spindle.angle->turns - begin->second;
+          if (rig.now - marked >= 250ms) {
+            const double feed = (x - mark->first) / (spindle.angle->turns - mark->second);
+            cut.least = std::min(cut.least, feed);
+            cut.most = std::max(cut.most, feed);
+            mark = {x, spindle.angle->turns};
+            marked = rig.now;
+          }
+          return x > to;
+        },
+        60s))
+        << rig.story();
+    std::printf("%.4f mm a turn in the mean, %.4f to %.4f over a quarter of a second\n", cut.mm / cut.turns,
+                cut.least, cut.most);
+    return cut;
+  }
+};
+
+TEST_F(FeedPerTurn, FollowsTheSpeedThatIsMeasured) {
+  ASSERT_TRUE(begin("M3 S600\nG0 X0\nG95 G1 X40 F0.5\nG94 G1 X60 F600\n"));
+  const Cut cut = cut_between(2, 38);
+  EXPECT_NEAR(cut.mm / cut.turns, 0.5, 0.002);
+  EXPECT_GT(cut.least, 0.985 * 0.5);
+  EXPECT_LT(cut.most, 1.015 * 0.5);
+  // By the minute nothing is asked of the spindle.
+  ASSERT_TRUE(rig.run_until([&] { return rig.joints()[0] > 42; }, 20s));
+  const BusTime begun = rig.now;
+  ASSERT_TRUE(rig.run_until([&] { return rig.joints()[0] > 58; }, 20s));
+  EXPECT_NEAR(to_seconds(rig.now - begun), 1.6, 0.02);
+}
+
+TEST_F(FeedPerTurn, AnOverrideCountsOnTop) {
+  ASSERT_TRUE(begin("M3 S600\nG0 X0\nG95 G1 X40 F0.5\n"));
+  ASSERT_TRUE(rig.run_until([&] { return rig.joints()[0] > 4; }, 20s));
+  ASSERT_TRUE(rig.gateway->carry_out(command::SetFeedOverride{0.5}));
+  const Cut cut = cut_between(8, 38);
+  EXPECT_NEAR(cut.mm / cut.turns, 0.25, 0.002);
+}
+
+TEST_F(Threads, ASurfaceSpeedKeepsWithinItsLimit) {
+  // 100 m/min are 796 rpm at X20, 1592 at X10, and more than the spindle can at X1.
+  ASSERT_TRUE(begin("G0 X20\nG96 S100 D2500 M3\nG0 X10\nG4 P0.1\nG0 X1\nG4 P0.1\nG96 S100 D800\nG4 P0.1\n"));
+  std::vector<double> told;
+  ASSERT_TRUE(rig.run_until(
+      [&] {
+        const double rpm = rig.gateway->status().spindle.target_rpm;
+        if (told.empty() || told.back() != rpm) told.push_back(rpm);
+        return rig.gateway->state() == MachineState::kReady;
+      },
+      60s))
+      << rig.story();
+  ASSERT_GE(told.size(), 5U);
+  EXPECT_NEAR(told[1], 795.8, 0.1);
+  EXPECT_NEAR(told[2], 1591.5, 0.1);
+  EXPECT_EQ(told[3], 2500);
+  EXPECT_EQ(told[4], 800);
+}
+
 }  // namespace
 }  // namespace kinebus
