@@ -278,7 +278,7 @@ class Runner {
   SmoothRamp smooth_ramp_;
   SpindleFollower follower_;
   Tap tap_;
-  SpindleFollower per_turn_;  ///< of the moves whose feed goes by the measured speed
+  SpindleFollower per_turn_;       ///< of the moves whose feed goes by the measured speed
   std::uint64_t thread_from_ = 0;  ///< the pass's first phase
   bool thread_over_ = false;       ///< its last one came from the pipeline
   bool hold_waits_ = false;        ///< for its end
