@@ -76,7 +76,7 @@ TEST(Plot, AWayThereAndBackIsDrawn) {
   float deepest = 40;
   for (const PlotData::Stretch& stretch : tap.path())
     for (const auto& point : stretch) deepest = std::min(deepest, point.mm[2]);
-  EXPECT_LT(deepest, 20.2f);
+  EXPECT_LT(deepest, 20.5f);  // what is drawn is 0.4 mm exact
 }
 
 TEST(Plot, ATravelIsNoLineThoughEWavers) {
