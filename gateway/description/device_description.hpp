@@ -204,6 +204,7 @@ struct SpindleDescription {
   /// Of an encoder on it, which lives where the spindle does, in a turn, with an index pulse; 0: there is
   /// none.
   int encoder_counts = 0;
+  double tap_rpm_per_s = 0;  ///< how fast a tap turns it back (G33.1), less than it can; 0: no taps
   double sim_rpm_per_s = 6000;
   double sim_droop_percent = 0;  ///< so much slower under a load that comes and goes ...
   double sim_load_s = 0;         ///< ... once in this time, for half of it; 0: never

@@ -69,6 +69,9 @@ class DeviceRules {
       require(d_.spindle.min_rpm <= d_.spindle.max_rpm, {"spindle.min_rpm", "spindle.max_rpm"},
               Sentence::verbatim(printed("%.6g", d_.spindle.min_rpm)),
               say("at most the largest speed, %1", printed("%.6g", d_.spindle.max_rpm)));
+      require(d_.spindle.tap_rpm_per_s == 0 || (d_.spindle.reversible && d_.spindle.encoder_counts > 0),
+              {"spindle.tap_rpm_per_s"}, Sentence::verbatim(printed("%.6g", d_.spindle.tap_rpm_per_s)),
+              say("taps need a spindle that is reversible and has encoder_counts"));
     }
     if (d_.probe.present) probe();
     if (d_.probe.bltouch) bltouch();

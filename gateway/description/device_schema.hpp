@@ -180,6 +180,7 @@ void visit_devices(V& v, MachineDescription& d) {
     v.number("max_rpm", d.spindle.max_rpm, {1, 200000}, Need::kOptional);
     v.flag("reversible", d.spindle.reversible, Need::kOptional);
     v.integer("encoder_counts", d.spindle.encoder_counts, 0, 1'000'000, Need::kOptional);
+    v.number("tap_rpm_per_s", d.spindle.tap_rpm_per_s, {0, 1000000}, Need::kOptional);
     v.number("sim_rpm_per_s", d.spindle.sim_rpm_per_s, {10, 1000000}, Need::kOptional);
     v.number("sim_droop_percent", d.spindle.sim_droop_percent, {0, 50}, Need::kOptional);
     v.number("sim_load_s", d.spindle.sim_load_s, {0, 3600}, Need::kOptional);

@@ -298,6 +298,7 @@ struct GcodeDescription {
   std::vector<double> tool_length_mm;    ///< of T1, T2 ...: G43 takes it by H, or by T without H
   std::vector<double> tool_diameter_mm;  ///< of T1, T2 ...: G41 and G42 take half of it by D, or by the tool
                                          ///< in use; 0: not known
+  std::vector<double> tool_orientation;  ///< of T1, T2 ...: where a lathe's tool has its tip, 1 to 8; 0: none
   bool optional_stop = false;            ///< M1 stops
   bool block_delete = false;             ///< lines that begin with / are left out
   friend bool operator==(const GcodeDescription&, const GcodeDescription&) = default;

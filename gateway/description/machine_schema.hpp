@@ -266,6 +266,7 @@ void visit_gcode(V& v, GcodeDescription& g) {
     v.choice("dwell_p_unit", g.dwell_p_unit, kDwellUnits, Need::kOptional);
     v.numbers("tool_length_mm", g.tool_length_mm, {-1000, 1000}, 99, 1);
     v.numbers("tool_diameter_mm", g.tool_diameter_mm, {0, 500}, 99, 1);
+    v.numbers("tool_orientation", g.tool_orientation, {0, 9}, 99, 1);
     v.flag("optional_stop", g.optional_stop, Need::kOptional);
     v.flag("block_delete", g.block_delete, Need::kOptional);
   });

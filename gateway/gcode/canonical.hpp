@@ -117,6 +117,13 @@ struct Spindle {
 struct SpindleSync {
   double rpm = 0;         ///< a little more than the spindle is told: path time can be slower, not faster
   double feed_per_s = 0;  ///< of the thread at that speed
+  /// > 0: a tap. After this much of its way, where the tool turns back, the spindle turns the other way.
+  double turns_back_mm = 0;
+};
+/// G95 where the spindle is measured: the moves that follow are planned for this speed of it, and are as much
+/// slower as it is. 0: no more. Motion goes on.
+struct FeedPerTurn {
+  double rpm = 0;
 };
 /// M401, M402, M280: of a probe that has a pin. Motion waits at rest until it is there.
 struct ProbePin {
@@ -208,10 +215,10 @@ struct Settings {
 };              ///< M500..M503
 struct End {};  ///< M2 / M30, or the end of the text
 
-using Command =
-    std::variant<Traverse, Feed, Arc, Dwell, PathMode, SetPosition, Limits, Thermal, Spindle, Home, Pause,
-                 MotorsOff, MotorsOn, WaitIdle, Override, Message, Query, EmergencyStop, StoredJob, Settings,
-                 End, PressureAdvance, Probe, InputShaping, Mesh, ProbePin, AwaitInput, SpindleSync, Tool>;
+using Command = std::variant<Traverse, Feed, Arc, Dwell, PathMode, SetPosition, Limits, Thermal, Spindle,
+                             Home, Pause, MotorsOff, MotorsOn, WaitIdle, Override, Message, Query,
+                             EmergencyStop, StoredJob, Settings, End, PressureAdvance, Probe, InputShaping,
+                             Mesh, ProbePin, AwaitInput, SpindleSync, Tool, FeedPerTurn>;
 
 /// One command with the line of the job that it came from (1-based).
 struct Line {

@@ -99,7 +99,12 @@ struct Writer {
   std::string operator()(const Tool& c) const { return "tool " + std::to_string(c.hotend); }
   std::string operator()(const Spindle& c) const { return "spindle " + number(c.rpm); }
   std::string operator()(const SpindleSync& c) const {
-    return c.rpm > 0 ? "sync " + number(c.rpm) + feed_text(c.feed_per_s, 0) : "sync off";
+    if (!(c.rpm > 0)) return "sync off";
+    const std::string text = "sync " + number(c.rpm) + feed_text(c.feed_per_s, 0);
+    return c.turns_back_mm > 0 ? text + " back " + number(c.turns_back_mm) : text;
+  }
+  std::string operator()(const FeedPerTurn& c) const {
+    return c.rpm > 0 ? "per_turn " + number(c.rpm) : "per_turn off";
   }
   std::string operator()(const ProbePin& c) const {
     static constexpr std::array<std::string_view, 4> kNames = {"out", "in", "self_test", "reset"};

@@ -98,11 +98,13 @@ struct Options {
   double a_min_rad = -0.7853981633974483, a_max_rad = 0.7853981633974483;  ///< what G53.1 may choose from
   bool spindle = false;                                                    ///< there is one: M3, M4, M5 and S
   bool spindle_encoder = false;                     ///< it tells its angle: G33 and G76
+  double tap_rpm_per_s = 0;                         ///< how fast a tap turns it back; 0: no taps
   double spindle_min_rpm = 0, spindle_max_rpm = 0;  ///< what G96 may ask for; 0: no limit
   int tools = 1;                                    ///< T0 .. T(tools - 1)
   int hotends = 1;                                  ///< M104 T0 .. T(hotends - 1)
   std::vector<double> tool_length_mm;               ///< G43 H1 is the first entry
   std::vector<double> tool_diameter_mm;             ///< G41 D1 is the first entry; 0: not known
+  std::vector<double> tool_orientation;             ///< of the same: where a lathe's tip is, 1 to 8; 0: none
   double retract_length_mm = 1, retract_mm_per_s = 40, retract_lift_mm = 0;  ///< until M207
   double recover_extra_mm = 0, recover_mm_per_s = 40;                        ///< until M208
   ProbeFitted probe = ProbeFitted::kNone;

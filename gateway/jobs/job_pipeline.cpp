@@ -298,7 +298,11 @@ void JobPipeline::take(const canonical::Line& line) {
   }
   if (is_barrier(command, machine_.gcode.optional_stop)) return drain(line);
   if (std::holds_alternative<Pause>(command) || take_advance(line) || take_shaping(line)) return;
-  events_.push_back(line);
+  if (!std::holds_alternative<FeedPerTurn>(command)) return events_.push_back(line);
+  // Of the line's own motion, too.
+  const canonical::Line before{line.line - 1, command};
+  const auto later = [&](const canonical::Line& event) { return event.line > before.line; };
+  events_.insert(std::find_if(events_.begin(), events_.end(), later), before);
 }
 
 void JobPipeline::take_motion(const canonical::Line& line) {

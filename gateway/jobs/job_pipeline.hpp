@@ -155,6 +155,7 @@ class JobPipeline {
   // pipeline_thread.cpp
   void watch_thread(const Phase& phase);
   void check_thread();
+  void watch_tap(const Phase& phase, double end);
   void start_at(const Pose& pose, Frame frame, std::uint32_t line);
   void home(const canonical::Home& home, std::uint32_t line);
 
@@ -181,7 +182,11 @@ class JobPipeline {
     bool slows = false;      ///< behind its speed, before the end
     bool slowed = false;     ///< and was as fast again
     bool corners = false;    ///< more than one move: path mode says how fast they are
+    double way_mm = 0;       ///< of a tap, so far
+    double fast_mm = -1;     ///< where it was as fast as its thread
+    bool slow_turn = false;  ///< slower to turn back than the spindle
   } thread_;
+  void check_tap(const Thread& thread);
   bool over_limit_ = false;  ///< the last shaped phase was: one report for each time
   std::unique_ptr<gcode::Interpreter> interpreter_;
   std::unique_ptr<gcode::JobReader> reader_;

@@ -187,10 +187,12 @@ gcode::Options interpreter_options(const MachineDescription& machine, const Pose
   // On a mill the operator puts in whatever tool is asked for.
   if (options.spindle) options.tools = 100'000;
   options.spindle_encoder = options.spindle && machine.spindle.encoder_counts > 0;
+  options.tap_rpm_per_s = options.spindle_encoder ? machine.spindle.tap_rpm_per_s : 0;
   options.spindle_min_rpm = machine.spindle.min_rpm;
   options.spindle_max_rpm = machine.spindle.max_rpm;
   options.tool_length_mm = machine.gcode.tool_length_mm;
   options.tool_diameter_mm = machine.gcode.tool_diameter_mm;
+  options.tool_orientation = machine.gcode.tool_orientation;
   options.retract_length_mm = machine.gcode.retract_mm;
   options.retract_mm_per_s = options.recover_mm_per_s = machine.gcode.retract_mm_per_s;
   options.retract_lift_mm = machine.gcode.retract_lift_mm;

@@ -239,6 +239,7 @@ Done Gateway::Core::on(command::Cancel&) {
   if (rest_.reading()) {
     rest_.read_for(Rest::After::kCancel);
   } else {
+    if (runner_->taps()) return refused(say("the tool is in a tap: hold rests when it is out of the hole"));
     runner_->hold_at_once(now_);
     rest_.begin(now_);
   }

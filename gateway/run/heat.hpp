@@ -59,6 +59,7 @@ class Heat {
 
   bool reached(const TemperatureWait& wait) const { return wait.over(devices_); }
   bool spindle_on() const { return devices_.spindle().target_rpm != 0; }
+  SpindleStatus spindle() const { return devices_.spindle(); }
   std::optional<SpindleAngle> spindle_angle() const { return devices_.spindle().angle; }
   bool spindle_at_speed() const { return devices_.spindle().at_speed(); }
   /// Those that are not off.

@@ -7,6 +7,7 @@
 
 #include "gateway/jobs/machine_setup.hpp"
 #include "gateway/jobs/print_trace.hpp"
+#include "gateway/run/thread_control.hpp"
 
 namespace kinebus {
 namespace {
@@ -15,6 +16,9 @@ namespace {
 /// commands.
 constexpr BusTime kRaisePeriod = std::chrono::milliseconds{250};
 constexpr double kRateStep = 0.02;
+/// Where feed goes by the spindle's speed.
+constexpr double kSpindleStep = 0.004;
+constexpr BusTime kSpindlePeriod = std::chrono::milliseconds{30};
 
 /// Live commands: a run under way is brought to a planned stop when less than this is left to move and no
 /// line came for a while, or when less than the second is left: the stop is in the nodes long before their
@@ -62,6 +66,7 @@ void Runner::begin() {
   probing_ = probe_cut_ = false;
   probe_wrong_.reset();
   follower_.follow(0);
+  per_turn_.follow(0);
   hold_waits_ = thread_over_ = false;
   has_melted_ = {};
   molten_mm_ = start_[kE];
@@ -349,8 +354,17 @@ bool Runner::waits_for_journal(BusTime now) const {
   return noted_ && !journal_.all_stored() && now - run_noted_ < kJournalPatience;
 }
 
+/// By override and spindle.
+double Runner::wanted_rate(BusTime now) {
+  if (!per_turn_.follows()) return std::min(override_, 1.0);
+  per_turn_.look(heat_.spindle_angle());
+  const auto measured = per_turn_.ratio_if_known(now + ThreadControl::kAhead);
+  return std::clamp(override_ * measured.value_or(1), 0.0, 1.0);
+}
+
 /// Path time runs while a run's records are in the nodes in time, and no faster than bus and override allow.
 void Runner::control_rate(BusTime now) {
+  const double asked = wanted_rate(now);
   if (!feed_.streaming() || held_ || rate_.stop_latched()) return;
   const PathTime tau = rate_.tau(now);
   if (!started_) {
@@ -360,14 +374,18 @@ void Runner::control_rate(BusTime now) {
     last_rate_change_ = now;
     const double allowed = group_.allowed_rate(tau);
     if (allowed < std::min(override_, 1.0)) ++counters_.bus_slowdowns;
-    rate_.request(std::min(override_, allowed), kRampAtRest, now);
+    rate_.request(std::min(per_turn_.follows() ? asked : override_, allowed), kRampAtRest, now);
     return;
   }
   const double allowed = group_.allowed_rate(tau);
-  const double wanted = std::min({override_, allowed, 1.0});
+  const double wanted = std::min(asked, allowed);
   const double present = rate_.target();
-  const bool lower = wanted < present - kRateStep || (wanted <= 0 && present > 0);
-  const bool raise = wanted > present && now - last_rate_change_ >= kRaisePeriod;
+  // A spindle changes its speed more often than an operator his mind.
+  const bool spindle = per_turn_.follows() && allowed >= present;
+  const double step = spindle ? kSpindleStep : kRateStep;
+  const bool due = now - last_rate_change_ >= (spindle ? kSpindlePeriod : kRaisePeriod);
+  const bool lower = (due || !spindle) && (wanted < present - step || (wanted <= 0 && present > 0));
+  const bool raise = due && wanted > present + (spindle ? kSpindleStep : 0);
   if (!lower && !raise) return;
   if (lower && allowed < override_) {
     if (allowed > 0)

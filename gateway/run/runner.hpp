@@ -23,6 +23,7 @@
 #include "gateway/run/run_feed.hpp"
 #include "gateway/run/smooth_ramp.hpp"
 #include "gateway/run/spindle_follower.hpp"
+#include "gateway/run/tap_spindle.hpp"
 #include "gateway/sentence.hpp"
 #include "gateway/status/event_queue.hpp"
 #include "gateway/stream/path_rate.hpp"
@@ -101,6 +102,8 @@ class Runner {
   // Threads.
   /// The tool goes with the spindle: a hold waits for the end of the pass, and a stop ends the job.
   bool cuts_thread() const;
+  /// Within a tap: whoever can wait does, until it is out of the hole.
+  bool taps() const { return cuts_thread() && tap_.deep_mm > 0; }
 
   // Interruption: the stream is lost, the job is not.
   /// What the job has left from path time `tau` on is kept; nothing happens until go_on().
@@ -194,6 +197,7 @@ class Runner {
   bool waits(const canonical::Line& line) const;
   void end_wait();
   void control_rate(BusTime now);
+  double wanted_rate(BusTime now);
   bool waits_for_journal(BusTime now) const;
   /// In motion, as gently as the joints have to be treated.
   void change_rate(double rate, BusTime now);
@@ -223,6 +227,31 @@ class Runner {
   void begin_thread(const canonical::SpindleSync& sync);
   bool is_within_thread() const;
   void follow_spindle(BusTime now);
+  std::optional<double> thread_rate(BusTime now);
+  void lose_thread(double turns);
+  // runner_tap.cpp
+  /// Under way: where it goes, and how far the spindle is turned back.
+  struct Tap {
+    double deep_mm = 0;  ///< 0: there is none
+    double pitch_mm = 0, feed_per_s = 0;
+    double told_rpm = 0;  ///< at first
+    TapSpindle spindle;
+    PosePoint start{}, ground{};
+    PathTime looked{0};               ///< for the corner
+    std::optional<PathTime> corner;   ///< where the tool turns back
+    std::optional<double> run_in_mm;  ///< what the tool is behind the spindle since its way to full speed
+    bool fast_out = false;            ///< behind the corner it was at full speed
+  };
+  void begin_tap(const canonical::SpindleSync& sync);
+  void look_at_spindle();
+  void follow_tap(BusTime now);
+  std::optional<double> tap_rate(BusTime now);
+  void find_corner();
+  void turn_spindle_back(BusTime now);
+  std::optional<PosePoint> tap_point(PathTime tau) const;
+  double tap_way(PathTime tau) const;
+  double tap_goal(BusTime at) const;
+  PathTime tap_place(double way, PathTime near) const;
   // runner_levelling.cpp
   Outcome level(BusTime now, const canonical::Mesh& mesh, std::uint32_t line);
   void learn(journal::Learned learned);
@@ -248,6 +277,8 @@ class Runner {
   RunFeed feed_;
   SmoothRamp smooth_ramp_;
   SpindleFollower follower_;
+  Tap tap_;
+  SpindleFollower per_turn_;       ///< of the moves whose feed goes by the measured speed
   std::uint64_t thread_from_ = 0;  ///< the pass's first phase
   bool thread_over_ = false;       ///< its last one came from the pipeline
   bool hold_waits_ = false;        ///< for its end

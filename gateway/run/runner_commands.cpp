@@ -118,6 +118,8 @@ void Runner::execute(BusTime now, const canonical::Line& line) {
     heat_.execute(*thermal);
   } else if (const auto* spindle = std::get_if<canonical::Spindle>(&line.command)) {
     heat_.execute(*spindle);
+  } else if (const auto* per_turn = std::get_if<canonical::FeedPerTurn>(&line.command)) {
+    per_turn_.follow(per_turn->rpm);
   } else if (const auto* message = std::get_if<canonical::Message>(&line.command)) {
     events_out_.message(now, Sentence::verbatim(message->text), line.line);
   } else if (std::holds_alternative<canonical::EmergencyStop>(line.command)) {

@@ -118,8 +118,11 @@ Runner::Outcome Runner::replay(int budget) {
       case Step::kRunEnd:
         thread_over_ = true;
         break;
-      case Step::kEvent:  // what it set is in the journal
-      case Step::kMelt:   // heaters are as hot as they were before it goes on
+      case Step::kEvent:  // what it set is in the journal, else
+        if (const auto* per_turn = std::get_if<canonical::FeedPerTurn>(&pipeline_.command().command))
+          per_turn_.follow(per_turn->rpm);
+        break;
+      case Step::kMelt:  // heaters are as hot as they were before it goes on
       case Step::kProbed:
       case Step::kStarved:
         break;

@@ -6,20 +6,15 @@
 #include <cmath>
 
 #include "gateway/run/runner.hpp"
+#include "gateway/run/thread_control.hpp"
 
 namespace kinebus {
 namespace {
 
-constexpr BusTime kPeriod = std::chrono::milliseconds{10};
 /// A smaller change is not worth a command, of which the bus carries each several times.
 constexpr double kLeastChange = 0.001;
-/// Where path time will be when a command of now is in force.
-constexpr BusTime kAhead = std::chrono::milliseconds{6};
-/// What is missing is caught up within it.
-constexpr double kCatchUp_s = 0.04;
-constexpr double kMostChange = 0.25;  // of the rate at once, far beyond what a spindle does in kPeriod
-/// So far from its angle the thread is spoilt.
-constexpr double kLost_turns = 0.1;
+constexpr double kMostChange =
+    0.25;  // of the rate at once, far beyond what a spindle does in ThreadControl::kPeriod
 
 }  // namespace
 
@@ -29,6 +24,7 @@ bool Runner::cuts_thread() const {
 
 void Runner::begin_thread(const canonical::SpindleSync& sync) {
   follower_.follow(sync.rpm);
+  begin_tap(sync);
   thread_from_ = feed_.added();
   thread_over_ = false;
   // Each pass is the plan from its very beginning.
@@ -44,7 +40,7 @@ bool Runner::is_within_thread() const {
 }
 
 void Runner::follow_spindle(BusTime now) {
-  follower_.look(heat_.spindle_angle());
+  look_at_spindle();
   if (!feed_.streaming() || held_ || rate_.stop_latched()) return;
   const PathTime tau = rate_.tau(now);
   if (!started_) {
@@ -57,20 +53,17 @@ void Runner::follow_spindle(BusTime now) {
     doing_ = say("moving");
     rate_.begin_at(std::clamp(follower_.ratio(*index), 0.0, 1.0), *index, now);
     follower_.start(*index, tau);
+    tap_.looked = feed_.run_start();
+    tap_.start = tap_point(tap_.looked).value_or(PosePoint{});
     return;
   }
-  if (now < follower_.started() || now - last_rate_change_ < kPeriod) return;
-  const double behind = follower_.behind(now + kAhead, rate_.tau(now + kAhead));
-  if (std::abs(behind) > kLost_turns) {
-    thread_lost_ =
-        say("the thread is lost: the tool is %1 turns from the spindle's angle; a spindle may be a "
-            "tenth faster than S",
-            printed("%.2f", std::abs(behind)));
-    return;
-  }
+  if (now < follower_.started()) return;
+  follow_tap(now);
+  if (now - last_rate_change_ < ThreadControl::kPeriod) return;
+  const auto rate = tap_.run_in_mm ? tap_rate(now) : thread_rate(now);
+  if (!rate) return;
   const double present = rate_.target();
-  double wanted =
-      follower_.ratio(now + kAhead + kPeriod / 2) + behind / follower_.planned_turns_per_s() / kCatchUp_s;
+  double wanted = *rate;
   wanted = std::clamp(wanted, present - kMostChange, present + kMostChange);
   const double allowed = group_.allowed_rate(tau);
   wanted = std::clamp(wanted, 0.0, std::min(1.0, allowed));
@@ -78,9 +71,26 @@ void Runner::follow_spindle(BusTime now) {
   const double change = std::abs(wanted - present);
   if (change < kLeastChange) return;
   last_rate_change_ = now;
-  const double even_ms = static_cast<double>(kPeriod.count()) / 1e6 / std::max(change, 1e-3);
+  const double even_ms = static_cast<double>(ThreadControl::kPeriod.count()) / 1e6 / std::max(change, 1e-3);
   const auto ramp = std::chrono::milliseconds{std::llround(std::min(even_ms, 500.0))};
   rate_.request(wanted, std::max(ramp, machine_.stop.hold_ramp), now);
+}
+
+void Runner::lose_thread(double turns) {
+  thread_lost_ =
+      say("the thread is lost: the tool is %1 turns from the spindle's angle; a spindle may be a "
+          "tenth faster than S",
+          printed("%.2f", std::abs(turns)));
+}
+
+std::optional<double> Runner::thread_rate(BusTime now) {
+  const double behind = follower_.behind(now + ThreadControl::kAhead, rate_.tau(now + ThreadControl::kAhead));
+  if (std::abs(behind) > ThreadControl::kLost_turns) {
+    lose_thread(behind);
+    return std::nullopt;
+  }
+  return follower_.ratio(now + ThreadControl::kAhead + ThreadControl::kPeriod / 2) +
+         behind / follower_.planned_turns_per_s() / ThreadControl::kCatchUp_s;
 }
 
 }  // namespace kinebus

@@ -18,20 +18,23 @@ void SpindleFollower::follow(double rpm) {
 }
 
 /// All three errors die away by exp(-kPerSecond t), whatever the times between two looks.
-void SpindleFollower::look(const std::optional<SpindleAngle>& angle) {
+void SpindleFollower::look(const std::optional<SpindleAngle>& angle, bool back) {
   if (!angle) return first_.reset();
   const double dt = to_seconds(angle->at - at_);
   // The first look, or one after a hold in which the spindle may have stood.
   if (!first_ || angle->at - at_ > kSettle) {
     first_ = at_ = angle->at;
-    turns_ = angle->turns;
+    turns_ = told_ = angle->turns;
+    counted_down_ = 0;
     per_s_ = planned_per_s_;
     per_s2_ = 0;
     return;
   }
   if (!(dt > 0)) return;
   const double stays = std::exp(-kPerSecond * dt), goes = 1 - stays;
-  const double error = angle->turns - turns_at(angle->at);
+  if (back) counted_down_ += angle->turns - told_;
+  told_ = angle->turns;
+  const double error = told_ - 2 * counted_down_ - turns_at(angle->at);
   turns_ = turns_at(angle->at) + (1 - stays * stays * stays) * error;
   per_s_ = per_s_at(angle->at) + 1.5 * goes * goes * (1 + stays) * error / dt;
   per_s2_ += goes * goes * goes * error / (dt * dt);
@@ -54,6 +57,11 @@ void SpindleFollower::start(BusTime index, PathTime tau) {
 
 double SpindleFollower::ratio(BusTime at) const {
   return per_s_at(at) / planned_per_s_;
+}
+
+std::optional<double> SpindleFollower::ratio_if_known(BusTime at) const {
+  if (!first_ || at - *first_ < kSettle) return std::nullopt;
+  return ratio(at);
 }
 
 double SpindleFollower::behind(BusTime at, PathTime tau) const {

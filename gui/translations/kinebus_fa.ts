@@ -3369,16 +3369,16 @@
         <translation>برای %1 اسپیندل باید بچرخد (%2)</translation>
     </message>
     <message>
-        <source>the tip of a lathe&apos;s tool counts by its centre: L is 0 or 9</source>
-        <translation>نوک ابزار تراش با مرکز آن حساب می‌شود: L برابر 0 یا 9 است</translation>
+        <source>the tip of a lathe&apos;s tool (orientation %1) counts in the plane of G18 alone</source>
+        <translation>نوک ابزار تراش (جهت %1) تنها در صفحهٔ G18 به حساب می‌آید</translation>
     </message>
     <message>
         <source>%1 needs a spindle of even speed: G97 first</source>
         <translation>%1 به اسپیندل با سرعت یکنواخت نیاز دارد: نخست G97</translation>
     </message>
     <message>
-        <source>G33 needs K, the way of a turn</source>
-        <translation>G33 به K، راه یک دور، نیاز دارد</translation>
+        <source>%1 needs K, the way of a turn</source>
+        <translation>%1 به K، راه یک دور، نیاز دارد</translation>
     </message>
     <message>
         <source>the way of a turn K must be greater than 0</source>
@@ -3389,8 +3389,8 @@
         <translation>%1 در رزوه جایی ندارد</translation>
     </message>
     <message>
-        <source>G33 needs X, Y or Z, where the thread ends</source>
-        <translation>G33 به X یا Y یا Z، جایی که رزوه پایان می‌یابد، نیاز دارد</translation>
+        <source>%1 needs X, Y or Z, where the thread ends</source>
+        <translation>%1 به X یا Y یا Z، جایی که رزوه پایان می‌یابد، نیاز دارد</translation>
     </message>
     <message>
         <source>G76 needs %1 as P Z I J K: pitch, end, crest, first cut, height of the thread</source>
@@ -3425,8 +3425,8 @@
         <translation>رزوهٔ G76 از اینجا تا Z درازایی ندارد</translation>
     </message>
     <message>
-        <source>%1 reverses with the spindle in the hole, which path time cannot: use G84 or G74 with a floating holder</source>
-        <translation>%1 در سوراخ همراه اسپیندل برمی‌گردد و زمان مسیر چنین نمی‌تواند: G84 یا G74 را با نگهدارندهٔ شناور به کار ببرید</translation>
+        <source>%1 turns back in the hole with the spindle, which needs an encoder on it and spindle.tap_rpm_per_s in the machine file; G84 and G74 are for a floating holder</source>
+        <translation>%1 در سوراخ همراه اسپیندل برمی‌گردد و به انکودری روی اسپیندل و spindle.tap_rpm_per_s در پروندهٔ ماشین نیاز دارد؛ G84 و G74 برای نگهدارندهٔ شناور هستند</translation>
     </message>
     <message>
         <source>a thread belongs to a job: it cannot wait for lines</source>
@@ -3443,6 +3443,26 @@
     <message>
         <source>the tool is in a thread: resume or cancel first</source>
         <translation>ابزار درون رزوه است: نخست ادامه دهید یا لغو کنید</translation>
+    </message>
+    <message>
+        <source>taps need a spindle that is reversible and has encoder_counts</source>
+        <translation>قلاویز به اسپیندلی نیاز دارد که reversible باشد و encoder_counts داشته باشد</translation>
+    </message>
+    <message>
+        <source>the tool is in a tap: hold rests when it is out of the hole</source>
+        <translation>ابزار در حال قلاویز است: نگه داشتن پس از بیرون آمدن از سوراخ می‌ایستد</translation>
+    </message>
+    <message>
+        <source>the axes cannot turn back as fast as the spindle in a tap: a slower spindle, or a smaller spindle.tap_rpm_per_s</source>
+        <translation>محورها در قلاویز به تندی اسپیندل برنمی‌گردند: اسپیندل کندتر، یا spindle.tap_rpm_per_s کوچک‌تر</translation>
+    </message>
+    <message>
+        <source>the tap needs %1 to be as fast as the spindle and to turn back with it, and has %2: a slower spindle, a greater spindle.tap_rpm_per_s, or more way before the hole</source>
+        <translation>قلاویز برای رسیدن به سرعت اسپیندل و برگشتن با آن به %1 نیاز دارد و %2 دارد: اسپیندل کندتر، spindle.tap_rpm_per_s بزرگ‌تر، یا راه بیشتر پیش از سوراخ</translation>
+    </message>
+    <message>
+        <source>I of G33.1 is 1 at most: the way out is as fast as the way in</source>
+        <translation>I در G33.1 حداکثر 1 است: راه بیرون به همان تندی راه درون است</translation>
     </message>
     <message>
         <source>the job ends: it was stopped in a thread, which has to be cut in one go</source>

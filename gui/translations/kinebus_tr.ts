@@ -3369,16 +3369,16 @@
         <translation>%1 için iş mili dönmeli (%2)</translation>
     </message>
     <message>
-        <source>the tip of a lathe&apos;s tool counts by its centre: L is 0 or 9</source>
-        <translation>torna takımının ucu merkeziyle sayılır: L 0 ya da 9 olur</translation>
+        <source>the tip of a lathe&apos;s tool (orientation %1) counts in the plane of G18 alone</source>
+        <translation>torna takımının ucu (yönelim %1) yalnız G18 düzleminde geçerlidir</translation>
     </message>
     <message>
         <source>%1 needs a spindle of even speed: G97 first</source>
         <translation>%1 için iş mili sabit hızda dönmeli: önce G97</translation>
     </message>
     <message>
-        <source>G33 needs K, the way of a turn</source>
-        <translation>G33 için K, bir dönüşün yolu, gerekir</translation>
+        <source>%1 needs K, the way of a turn</source>
+        <translation>%1 için K, bir dönüşün yolu, gerekir</translation>
     </message>
     <message>
         <source>the way of a turn K must be greater than 0</source>
@@ -3389,8 +3389,8 @@
         <translation>%1 bir dişte yer alamaz</translation>
     </message>
     <message>
-        <source>G33 needs X, Y or Z, where the thread ends</source>
-        <translation>G33 için dişin bittiği X, Y ya da Z gerekir</translation>
+        <source>%1 needs X, Y or Z, where the thread ends</source>
+        <translation>%1 için dişin bittiği X, Y ya da Z gerekir</translation>
     </message>
     <message>
         <source>G76 needs %1 as P Z I J K: pitch, end, crest, first cut, height of the thread</source>
@@ -3425,8 +3425,8 @@
         <translation>G76&apos;nın dişi buradan Z&apos;ye uzunluk bırakmıyor</translation>
     </message>
     <message>
-        <source>%1 reverses with the spindle in the hole, which path time cannot: use G84 or G74 with a floating holder</source>
-        <translation>%1 delikte iş mili ile geri döner; yol zamanı bunu yapamaz: esnek tutucuyla G84 ya da G74 kullanın</translation>
+        <source>%1 turns back in the hole with the spindle, which needs an encoder on it and spindle.tap_rpm_per_s in the machine file; G84 and G74 are for a floating holder</source>
+        <translation>%1 delikte iş mili ile geri döner; bunun için iş milinde enkoder ve makine dosyasında spindle.tap_rpm_per_s gerekir; G84 ve G74 esnek tutucu içindir</translation>
     </message>
     <message>
         <source>a thread belongs to a job: it cannot wait for lines</source>
@@ -3443,6 +3443,26 @@
     <message>
         <source>the tool is in a thread: resume or cancel first</source>
         <translation>takım bir dişin içinde: önce sürdürün ya da iptal edin</translation>
+    </message>
+    <message>
+        <source>taps need a spindle that is reversible and has encoder_counts</source>
+        <translation>kılavuz çekmek için reversible olan ve encoder_counts taşıyan bir iş mili gerekir</translation>
+    </message>
+    <message>
+        <source>the tool is in a tap: hold rests when it is out of the hole</source>
+        <translation>takım kılavuz çekiyor: bekletme, delikten çıkınca durur</translation>
+    </message>
+    <message>
+        <source>the axes cannot turn back as fast as the spindle in a tap: a slower spindle, or a smaller spindle.tap_rpm_per_s</source>
+        <translation>eksenler kılavuzda iş mili kadar hızlı geri dönemez: daha yavaş bir iş mili ya da daha küçük spindle.tap_rpm_per_s</translation>
+    </message>
+    <message>
+        <source>the tap needs %1 to be as fast as the spindle and to turn back with it, and has %2: a slower spindle, a greater spindle.tap_rpm_per_s, or more way before the hole</source>
+        <translation>kılavuzun iş mili kadar hızlanıp onunla geri dönmesi için %1 gerekir, %2 var: daha yavaş bir iş mili, daha büyük spindle.tap_rpm_per_s ya da delikten önce daha çok yol</translation>
+    </message>
+    <message>
+        <source>I of G33.1 is 1 at most: the way out is as fast as the way in</source>
+        <translation>G33.1&apos;in I değeri en çok 1&apos;dir: çıkış giriş kadar hızlıdır</translation>
     </message>
     <message>
         <source>the job ends: it was stopped in a thread, which has to be cut in one go</source>

@@ -227,8 +227,10 @@ void Node::on_switch(LocalTime at, int input, bool level) {
   // Where the axes were at the edge; a stream is never looked at backwards.
   path_.advance_to(at);
   const LatchedPositions latched{axes_[0].position(at), axes_[1].position(at)};
-  inputs_.on_level(at, input, level, latched, directed_scales());
+  // A level that has lasted long enough until this edge counts, also when both are heard of at once.
   now_ = std::max(now_, at);
+  serve_switches();
+  inputs_.on_level(at, input, level, latched, directed_scales());
   serve();
 }
 
@@ -357,7 +359,10 @@ std::optional<CanFrame> Node::next_frame() {
     emcy_.discard();
   else if (nmt_.allows_emcy() || urgent)
     if (auto frame = emcy_.next_frame(now_, node_id_)) return frame;
-  if (auto frame = pdo_.next_frame(now_)) return frame;
+  if (auto frame = pdo_.next_frame(now_)) {
+    if (frame->id == cob_id::tpdo(1, node_id_)) inputs_.told();
+    return frame;
+  }
   if (auto frame = heartbeat_.next_frame(now_, nmt_.state(), node_id_)) return frame;
   if (auto frame = guard_.next_frame(nmt_.state(), node_id_)) return frame;
   return nmt_.allows_sdo() ? sdo_.next_frame() : std::nullopt;

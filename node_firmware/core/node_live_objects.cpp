@@ -76,7 +76,7 @@ bool Node::read_node_object(ObjectAddress address, std::int64_t& value) {
       return true;
     }
     case 0x2133:
-      value = inputs_.active_inputs();
+      value = inputs_.shown_inputs();
       return true;
     default:
       return false;

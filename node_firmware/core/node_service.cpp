@@ -105,7 +105,9 @@ void Node::serve_switches() {
       if (event->active) axes_[i].set_probe(event->latched[i]);
       probes_[i].on_edge(event->active, whole_counts(event->latched[i]), bus_ns);
     }
+    inputs_.show(now_);
   }
+  inputs_.show(now_);
 }
 
 // Levels, not edges: an input that becomes an E-stop input while it is active stops too.

@@ -43,6 +43,8 @@ LocalTime SwitchInputs::next_deadline() const {
   LocalTime deadline = LocalTime::max();
   for (const Input& in : inputs_)
     if (in.pending) deadline = std::min(deadline, in.since + in.config.debounce);
+  if (shown_ != active_inputs())
+    deadline = std::min(deadline, shown_at_ + (untold_ != 0 ? kShown : LocalTime{0}));
   return deadline;
 }
 
@@ -51,6 +53,15 @@ std::uint8_t SwitchInputs::active_inputs() const {
   for (std::size_t i = 0; i < inputs_.size(); ++i)
     if (inputs_[i].active()) bits |= 1u << i;
   return static_cast<std::uint8_t>(bits);
+}
+
+void SwitchInputs::show(LocalTime now) {
+  if (untold_ != 0 && now - shown_at_ >= kShown) untold_ = 0;
+  const unsigned changed = (active_inputs() ^ shown_) & ~static_cast<unsigned>(untold_);
+  if (changed == 0) return;
+  shown_ = static_cast<std::uint8_t>(shown_ ^ changed);
+  untold_ = static_cast<std::uint8_t>(untold_ | changed);
+  shown_at_ = now;
 }
 
 bool SwitchInputs::active(SwitchFunction function) const {

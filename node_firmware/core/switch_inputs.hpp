@@ -49,6 +49,12 @@ class SwitchInputs {
 
   /// Bit 0: input 1, debounced, polarity applied.
   std::uint8_t active_inputs() const;
+  /// The same as it is told: a change stays until told(), or for kShown, so that a pulse is seen which is
+  /// over before a frame could go out.
+  std::uint8_t shown_inputs() const { return shown_; }
+  static constexpr LocalTime kShown{20'000'000};
+  void show(LocalTime now);
+  void told() { untold_ = 0; }
   bool active(SwitchFunction function) const;
   bool configured(SwitchFunction function) const;
   std::uint32_t glitches() const { return glitches_; }  ///< pulses shorter than the debounce time
@@ -65,6 +71,8 @@ class SwitchInputs {
   };
   std::array<Input, kSwitchInputs> inputs_{};
   std::uint32_t glitches_ = 0;
+  std::uint8_t shown_ = 0, untold_ = 0;  // bit 0: input 1
+  LocalTime shown_at_{0};
 };
 
 }  // namespace kinebus

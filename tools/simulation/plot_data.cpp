@@ -29,7 +29,9 @@ float detour_height(const std::array<float, 3>& a, const std::array<float, 3>& p
   const float ap = distance(a, p), pb = distance(p, b), ab = distance(a, b);
   const float s = (ap + pb + ab) / 2;
   const float area2 = s * (s - ap) * (s - pb) * (s - ab);
-  return ab > 1e-4f ? 2 * std::sqrt(std::max(area2, 0.0f)) / ab : ap;
+  // Beyond an end: a way that is gone there and back.
+  const float beyond = std::max(ap, pb) - ab;
+  return ab > 1e-4f ? std::max(beyond, 2 * std::sqrt(std::max(area2, 0.0f)) / ab) : ap;
 }
 
 }  // namespace

@@ -86,8 +86,10 @@ bool Core::run_block() {
   if (!run_modes()) return false;
   if (block_.has(GGroup::kNonmodal) && !run_nonmodal(block_.code(GGroup::kNonmodal))) return false;
   if (!spindle_speed()) return false;
+  tell_feed_per_turn();
   if (!run_motion()) return false;
   follow_surface(false);
+  tell_feed_per_turn();
   if (!check_leftovers()) return false;
   for (int i = 0; i < block_.m_count; ++i)
     if (ends_program(block_.m[static_cast<std::size_t>(i)]) && !cutter_off()) return false;

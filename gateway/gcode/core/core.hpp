@@ -165,6 +165,11 @@ class Core {
   struct ThreadCycle;
   bool may_thread(Code code, const std::string& name);
   bool thread(Code code);
+  bool thread_target(Code code, const std::string& name, double& pitch_mm, Vector3& point);
+  bool rigid_tap(Code code);
+  bool taps_rigidly() const;
+  /// To `bottom` and back to `clear`, program coordinates; then the spindle turns as before.
+  bool tap(const Vector3& bottom, const Vector3& clear, double pitch_mm);
   bool threading_cycle(Code code);
   bool thread_words(Code code, ThreadCycle& cycle);
   bool thread_pass(const ThreadCycle& cycle, const Vector3& start, double depth);
@@ -255,6 +260,7 @@ class Core {
     return state_.modal.cutter == CutterSide::kLeft || state_.modal.cutter == CutterSide::kRight;
   }
   bool cutter_on(Code code);
+  bool cutter_tool(Code code, double& diameter, int& orientation);
   bool cutter_off();
   bool check_beside_cutter();
   bool refuse_beside_cutter(Code code, const std::string& name);
@@ -274,6 +280,8 @@ class Core {
   bool spindle_mode();
   /// Under G96: the speed for where the tool is.
   void follow_surface(bool now);
+  /// Whether feed goes by the measured speed, and which it is planned for.
+  void tell_feed_per_turn();
   double surface_rpm() const;
   bool thermal(Code code);
   bool value_by_p(Code code);

@@ -12,6 +12,10 @@ namespace {
 // How far the tool may lean from the plane's normal: rounding of angles that G53.1 chose.
 constexpr double kUpright = 1e-6;
 
+/// Where a lathe's tip is from the middle of its round, along Z and X, radii: LinuxCNC's tool orientations.
+constexpr std::array<Point2, 10> kTips{
+    {{0, 0}, {1, -1}, {-1, -1}, {-1, 1}, {1, 1}, {1, 0}, {0, -1}, {-1, 0}, {0, 1}, {0, 0}}};
+
 }  // namespace
 
 bool Core::refuse_beside_cutter(Code code, const std::string& name) {
@@ -22,29 +26,39 @@ bool Core::refuse_beside_cutter(Code code, const std::string& name) {
                   : say("%1 cannot stand while cutter compensation is on: end it with G40 first", name));
 }
 
+/// What the line says of it, or the table.
+bool Core::cutter_tool(Code code, double& diameter, int& orientation) {
+  const ModalState& m = state_.modal;
+  if (code.number == 411 || code.number == 421) {
+    if (!has('D')) return fail(code.column, say("%1 needs D, the tool's diameter", g_name(code.number)));
+    if (!take('D', diameter) || !take_integer('L', 0, 9, orientation)) return false;
+    diameter = length(diameter);
+    return true;
+  }
+  int tool = m.tool_in_spindle >= 0 ? m.tool_in_spindle : m.tool;
+  const bool given = has('D');
+  if (!take_integer('D', 0, 99'999, tool)) return false;
+  const ToolEntry entry = tool_entry(tool);
+  diameter = entry.diameter_mm;
+  orientation = entry.orientation;
+  return diameter != 0 || (given && tool == 0) ||
+         fail(code.column,
+              say("the diameter of T%1 is not known: write gcode.tool_diameter_mm in the machine file, "
+                  "or G41.1 D with the diameter",
+                  tool));
+}
+
 bool Core::cutter_on(Code code) {
   ModalState& m = state_.modal;
   if (m.cutter != CutterSide::kOff) return refuse_beside_cutter(code, g_name(code.number));
   double diameter = 0;
-  if (code.number == 411 || code.number == 421) {
-    if (!has('D')) return fail(code.column, say("%1 needs D, the tool's diameter", g_name(code.number)));
-    if (!take('D', diameter)) return false;
-    int tip = 0;
-    if (!take_integer('L', 0, 9, tip)) return false;
-    if (tip % 9 != 0)
-      return fail(block_.column_of('L'), say("the tip of a lathe's tool counts by its centre: L is 0 or 9"));
-    diameter = length(diameter);
-  } else {
-    int tool = m.tool_in_spindle >= 0 ? m.tool_in_spindle : m.tool;
-    const bool given = has('D');
-    if (!take_integer('D', 0, 99'999, tool)) return false;
-    diameter = tool_entry(tool).diameter_mm;
-    if (diameter == 0 && !(given && tool == 0))
-      return fail(code.column,
-                  say("the diameter of T%1 is not known: write gcode.tool_diameter_mm in the machine file, "
-                      "or G41.1 D with the diameter",
-                      tool));
-  }
+  int orientation = 0;
+  if (!cutter_tool(code, diameter, orientation)) return false;
+  const Point2 tip = kTips[static_cast<std::size_t>(orientation)] * (std::abs(diameter) / 2);
+  if (m.plane != Plane::kZx && length_of(tip) > 0)
+    return fail(
+        block_.has('L') ? block_.column_of('L') : code.column,
+        say("the tip of a lathe's tool (orientation %1) counts in the plane of G18 alone", orientation));
   const PlaneAxes plane = plane_axes();
   std::array<Vector3, 3> axes{};
   std::size_t at = 0;
@@ -63,7 +77,7 @@ bool Core::cutter_on(Code code) {
   if (!compensate()) return false;
   // A negative diameter is the other side, as LinuxCNC has it.
   m.cutter = (code.number < 420) == (diameter >= 0) ? CutterSide::kLeft : CutterSide::kRight;
-  state_.cutter.begin(m.cutter, std::abs(diameter) / 2, axes[0], axes[1], axes[2], m.position, m.frame);
+  state_.cutter.begin(m.cutter, std::abs(diameter) / 2, axes[0], axes[1], axes[2], m.position, m.frame, tip);
   return true;
 }
 

@@ -156,9 +156,15 @@ bool Core::drill(std::size_t w, double r, double bottom, double clear) {
       if (m.cycle == 830 && !go(std::min(r, depth + kPeckClearance_mm), true)) return false;
     }
   }
+  const double rpm = m.spindle_turns * m.spindle_rpm;
+  if ((m.cycle == 840 || m.cycle == 740) && taps_rigidly()) {
+    Vector3 ground = point, above = point;
+    ground[w] = bottom;
+    above[w] = clear;
+    return bottom == r || tap(ground, above, m.feed_mm_per_s * 60 / m.spindle_rpm);
+  }
   if (!go(bottom, false)) return false;
   if (uses_dwell(m.cycle) && m.cycle_dwell_s > 0) emit(canonical::Dwell{m.cycle_dwell_s});
-  const double rpm = m.spindle_turns * m.spindle_rpm;
   if (m.cycle == 860) emit(canonical::Spindle{0});
   if (m.cycle == 840 || m.cycle == 740) emit(canonical::Spindle{-rpm});
   if (feeds_out(m.cycle) && !go(clear, false)) return false;

@@ -62,7 +62,8 @@ bool Core::run_motion() {
   if (block_.has(GGroup::kMotion)) {
     const Code code = block_.code(GGroup::kMotion);
     m.motion = motion_of(code.number);
-    if (machine_coordinates && (code.number == kThread || code.number == kThreadingCycle))
+    if (machine_coordinates &&
+        (code.number == kThread || code.number == kRigidTap || code.number == kThreadingCycle))
       return fail(block_.code(GGroup::kNonmodal).column, say("G53 needs G0 or G1, in this line or active"));
     if (code.number == 52 || code.number == 53 || code.number == 62) return run_nurbs();
     if (code.number == 50 || code.number == 51) {
@@ -72,6 +73,7 @@ bool Core::run_motion() {
       return run_spline(code);
     }
     if (code.number == kThread) return thread(code);
+    if (code.number == kRigidTap) return rigid_tap(code);
     if (code.number == kThreadingCycle) return threading_cycle(code);
     if (code.number >= 700 && code.number < 730) return begin_turning(code);
     if (code.number < 730 || code.number == 800) m.cycle = 0;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "gateway/gcode/core/core.hpp"
 
@@ -73,6 +74,13 @@ void Core::follow_surface(bool now) {
   }
   m.spindle_rpm = rpm;
   if (m.spindle_turns != 0) emit(canonical::Spindle{m.spindle_turns * rpm});
+}
+
+void Core::tell_feed_per_turn() {
+  if (!options_.spindle_encoder) return;
+  ModalState& m = state_.modal;
+  const double rpm = m.feed_per_turn && m.spindle_turns != 0 ? m.spindle_rpm : 0;
+  if (std::exchange(m.per_turn_rpm, rpm) != rpm) emit(canonical::FeedPerTurn{rpm});
 }
 
 bool Core::spindle_speed() {

@@ -1,4 +1,5 @@
-// Threads: G33, and G76 as LinuxCNC has it. The moves go with the spindle's angle (canonical::SpindleSync).
+// Threads: G33, G33.1, and G76 as LinuxCNC has it. The moves go with the spindle's angle
+// (canonical::SpindleSync).
 
 #include <algorithm>
 #include <cmath>
@@ -38,29 +39,66 @@ void Core::end_thread() {
   if (std::exchange(state_.modal.thread_mm, 0) > 0) emit(canonical::SpindleSync{});
 }
 
-bool Core::thread(Code code) {
-  ModalState& m = state_.modal;
-  if (!may_thread(code, "G33")) return false;
-  if (!has('K')) return fail(code.column, say("G33 needs K, the way of a turn"));
-  double pitch = 0;
-  if (!take('K', pitch)) return false;
-  pitch = length(pitch);
-  if (!(pitch > 0)) return fail(block_.column_of('K'), say("the way of a turn K must be greater than 0"));
+/// K, and X Y Z: where the thread ends, program coordinates.
+bool Core::thread_target(Code code, const std::string& name, double& pitch_mm, Vector3& point) {
+  const ModalState& m = state_.modal;
+  if (!has('K')) return fail(code.column, say("%1 needs K, the way of a turn", name));
+  if (!take('K', pitch_mm)) return false;
+  pitch_mm = length(pitch_mm);
+  if (!(pitch_mm > 0)) return fail(block_.column_of('K'), say("the way of a turn K must be greater than 0"));
   for (const char letter : {'A', 'C', 'E'})
     if (has(letter)) return fail(block_.column_of(letter), say("%1 has no place in a thread", letter));
-  Vector3 point = xyz(m.program);
+  point = xyz(m.program);
   for (const std::size_t axis : {kAxisX, kAxisY, kAxisZ}) {
     double value = 0;
     if (!has(kAxisLetters[axis])) continue;
     if (!take(kAxisLetters[axis], value)) return false;
     point[axis] = length(value) + (m.incremental ? point[axis] : 0);
   }
-  if (norm(to_canonical_xyz(point) - xyz(m.position)) <= kNoMotion)
-    return fail(code.column, say("G33 needs X, Y or Z, where the thread ends"));
+  return norm(to_canonical_xyz(point) - xyz(m.position)) > kNoMotion ||
+         fail(code.column, say("%1 needs X, Y or Z, where the thread ends", name));
+}
+
+bool Core::thread(Code code) {
+  ModalState& m = state_.modal;
+  double pitch = 0;
+  Vector3 point{};
+  if (!may_thread(code, "G33") || !thread_target(code, "G33", pitch, point)) return false;
   if (m.thread_mm == 0) begin_thread(pitch);
   // Another pitch goes on with the same angle, as where the tool comes out along a slope.
   m.thread_mm = pitch;
   return thread_move(point, pitch);
+}
+
+bool Core::rigid_tap(Code code) {
+  const ModalState& m = state_.modal;
+  if (!(options_.tap_rpm_per_s > 0)) return fail(code.column, unknown_g(code.number));
+  double pitch = 0, faster = 1;
+  Vector3 point{};
+  if (!may_thread(code, "G33.1") || !thread_target(code, "G33.1", pitch, point)) return false;
+  if (!take_if_given('I', faster)) return false;
+  if (faster > 1)
+    return fail(block_.column_of('I'), say("I of G33.1 is 1 at most: the way out is as fast as the way in"));
+  if (!m.exact_path) emit(canonical::PathMode{true, 0, 0, true});
+  if (!tap(point, xyz(m.program), pitch)) return false;
+  if (!m.exact_path) emit(path_mode());
+  return true;
+}
+
+bool Core::taps_rigidly() const {
+  const ModalState& m = state_.modal;
+  return options_.tap_rpm_per_s > 0 && !m.surface_speed && !m.left_out && !m.away;
+}
+
+bool Core::tap(const Vector3& bottom, const Vector3& clear, double pitch_mm) {
+  const ModalState& m = state_.modal;
+  const double rpm = m.spindle_rpm * kFasterThanTold;
+  const double deep = norm(to_canonical_xyz(bottom) - xyz(m.position));
+  emit(canonical::SpindleSync{rpm, pitch_mm * rpm / 60, deep});
+  if (!thread_move(bottom, pitch_mm) || !thread_move(clear, pitch_mm)) return false;
+  emit(canonical::SpindleSync{});
+  emit(canonical::Spindle{m.spindle_turns * m.spindle_rpm});
+  return true;
 }
 
 bool Core::thread_move(const Vector3& program, double pitch_mm) {

@@ -72,13 +72,14 @@ Pose CutterPath::with_plane(const Pose& pose, const Point2& point) const {
 }
 
 void CutterPath::begin(CutterSide side, double radius_mm, const Axis3& u, const Axis3& v, const Axis3& w,
-                       const Pose& tool, Frame frame) {
+                       const Pose& tool, Frame frame, const Point2& tip) {
   *this = {};
   left_mm_ = side == CutterSide::kLeft ? radius_mm : -radius_mm;
   u_ = u;
   v_ = v;
   w_ = w;
   frame_ = frame;
+  tip_ = tip;
   tool_ = programmed_ = tool;
 }
 
@@ -127,6 +128,7 @@ bool CutterPath::take_move(canonical::Line& line, Pose& target, std::vector<cano
   Piece next;
   if (!read(line, target, next, error)) return false;
   std::optional<Curve> round;
+  if (!has_last_ && next.wall.arc && length_of(tip_) > 0) centre_first(next, speed_of(line.command), out);
   const bool good =
       has_last_ ? turn_corner(next, speed_of(line.command), round, out, error) : enter(next, error);
   if (!good) return false;
@@ -166,6 +168,13 @@ bool CutterPath::read(const canonical::Line& line, const Pose& target, Piece& ne
   return true;
 }
 
+/// Before an arc as lead-in a lathe's tool goes so that its middle is where the arc begins, as LinuxCNC has
+/// it.
+void CutterPath::centre_first(const Piece& next, double speed_per_s, std::vector<canonical::Line>& out) {
+  tool_ = with_centre(tool_, plane(tool_));
+  out.push_back({next.line, canonical::Feed{tool_, frame_, speed_per_s, 0}});
+}
+
 /// The lead-in: from where the tool is to beside the first move's end.
 bool CutterPath::enter(Piece& next, Sentence& error) const {
   const double radius = std::abs(left_mm_);
@@ -179,7 +188,7 @@ bool CutterPath::enter(Piece& next, Sentence& error) const {
             : say("the lead-in is too short: the first move is %1 long, not more than the tool's "
                   "radius, %2",
                   in_mm(size), in_mm(radius)));
-  next.start = plane(tool_);
+  next.start = plane(tool_) - tip_;
   if (!next.wall.arc) return true;
   // The circle through both that has the programmed arc's direction at the end.
   const Point2 end = next.tool.to, way = next.start - end;
@@ -246,14 +255,14 @@ bool CutterPath::turn_corner(Piece& next, double speed_per_s, std::optional<Curv
 void CutterPath::go_round(const Point2& corner, double angle, const Piece& next, double speed_per_s,
                           std::vector<canonical::Line>& out) {
   const auto give = [&](const Point2& to, canonical::Command command) {
-    tool_ = with_plane(tool_, to);
+    tool_ = with_centre(tool_, to);
     *target_of(command) = tool_;
     out.push_back({next.line, std::move(command)});
   };
   if (!next.traverse) {
     canonical::Arc arc;
     arc.frame = frame_;
-    const Pose centre = with_plane(tool_, corner);
+    const Pose centre = with_centre(tool_, corner);
     std::copy_n(centre.begin(), arc.centre_mm.size(), arc.centre_mm.begin());
     const double turn = left_mm_ > 0 ? -1 : 1;
     for (std::size_t i = 0; i < 3; ++i) arc.normal[i] = turn * w_[i];
@@ -328,11 +337,11 @@ bool CutterPath::flush(const Point2& end, std::vector<canonical::Line>& out, Sen
       out.push_back(std::move(line));
       continue;
     }
-    *target = with_plane(*target, end);
+    *target = with_centre(*target, end);
     if (auto* arc = std::get_if<canonical::Arc>(&line.command); arc != nullptr && first) {
       Pose centre{};
       std::copy(arc->centre_mm.begin(), arc->centre_mm.end(), centre.begin());
-      centre = with_plane(centre, track.centre);
+      centre = with_centre(centre, track.centre);
       std::copy_n(centre.begin(), arc->centre_mm.size(), arc->centre_mm.begin());
       arc->sweep_rad = track.sweep;
       if (track.sweep * track.radius <= kStill_mm)

@@ -31,9 +31,10 @@ class CutterPath {
   static constexpr std::size_t kMostHeld = 1000;
   static constexpr double kTolerance_mm = 2e-5;
 
-  /// `u`, `v`, `w`: the plane's axes in the coordinates of the commands; `tool`: where it is.
+  /// `u`, `v`, `w`: the plane's axes in the coordinates of the commands; `tool`: where it is. `tip`: where in
+  /// the plane the point is that the commands move, from the centre of the round that cuts.
   void begin(CutterSide side, double radius_mm, const Axis3& u, const Axis3& v, const Axis3& w,
-             const Pose& tool, Frame frame);
+             const Pose& tool, Frame frame, const Point2& tip = {});
   /// The held moves end where they are; the tool stays beside the programmed path.
   bool end(std::vector<canonical::Line>& out, Sentence& error);
   /// Takes one command while compensation is on. False: with `error`, and this and `out` are to be put back.
@@ -61,6 +62,7 @@ class CutterPath {
 
   bool take_move(canonical::Line& line, Pose& target, std::vector<canonical::Line>& out, Sentence& error);
   bool read(const canonical::Line& line, const Pose& target, Piece& next, Sentence& error) const;
+  void centre_first(const Piece& next, double speed_per_s, std::vector<canonical::Line>& out);
   bool enter(Piece& next, Sentence& error) const;
   bool turn_corner(Piece& next, double speed_per_s, std::optional<Curve>& round,
                    std::vector<canonical::Line>& out, Sentence& error);
@@ -76,10 +78,13 @@ class CutterPath {
   Point2 plane(const Pose& pose) const;
   double height(const Pose& pose) const;
   Pose with_plane(const Pose& pose, const Point2& point) const;
+  /// The same with the centre of what cuts at `centre`.
+  Pose with_centre(const Pose& pose, const Point2& centre) const { return with_plane(pose, centre + tip_); }
 
   double left_mm_ = 0;  ///< the tool's distance to the left
   Axis3 u_{}, v_{}, w_{};
   Frame frame_{};
+  Point2 tip_{};
   Pose tool_{};        ///< behind what was given out
   Pose programmed_{};  ///< behind what was taken
   bool has_last_ = false;

@@ -214,6 +214,43 @@ TEST(Cutter, ANegativeDiameterIsTheOtherSide) {
   EXPECT_EQ(left.texts(), right.texts());
 }
 
+TEST(Cutter, ALathesTipIsWhereItsOrientationSaysFromTheMiddle) {
+  const char* const path = " G1 Z-5 X10\nZ-20\nG3 X14 Z-24 I0 K-4\nG1 X20\nG40 G1 X30 Z0\n";
+  const std::string begin = "G18 F600\nG0 X5 Z2\nG42.1 D0.8";
+  Session middle;
+  middle.must(begin + path);
+  const auto plain = middle.all<canonical::Feed>();
+  const auto arcs = middle.all<canonical::Arc>();
+  ASSERT_EQ(plain.size(), 4U);
+  ASSERT_FALSE(arcs.empty());
+  // Of X and Z, as the table of LinuxCNC's orientations draws them.
+  constexpr double kTipX[] = {0, -1, -1, 1, 1, 0, -1, 0, 1, 0};
+  constexpr double kTipZ[] = {0, 1, -1, -1, 1, 1, 0, -1, 0, 0};
+  for (int orientation = 0; orientation <= 9; ++orientation) {
+    const double x = 0.4 * kTipX[orientation], z = 0.4 * kTipZ[orientation];
+    Session by_word, by_table;
+    by_word.must(begin + " L" + std::to_string(orientation) + path);
+    by_table.must("G10 L1 P5 R0.4 Q" + std::to_string(orientation) + "\nG18 F600\nG0 X5 Z2\nG42 D5" + path);
+    for (const Session* session : {&by_word, &by_table}) {
+      const auto feeds = session->all<canonical::Feed>();
+      ASSERT_EQ(feeds.size(), plain.size()) << orientation;
+      for (std::size_t i = 0; i < feeds.size(); ++i) {
+        const bool beside = i + 1 < feeds.size();  // the last one leads out to the programmed point
+        EXPECT_NEAR(feeds[i].target[0] - plain[i].target[0], beside ? x : 0, 1e-12)
+            << orientation << " " << i;
+        EXPECT_NEAR(feeds[i].target[2] - plain[i].target[2], beside ? z : 0, 1e-12)
+            << orientation << " " << i;
+      }
+      const auto round = session->all<canonical::Arc>();
+      ASSERT_EQ(round.size(), arcs.size());
+      for (std::size_t i = 0; i < round.size(); ++i) {
+        EXPECT_NEAR(round[i].centre_mm[0] - arcs[i].centre_mm[0], x, 1e-12) << orientation;
+        EXPECT_NEAR(round[i].centre_mm[2] - arcs[i].centre_mm[2], z, 1e-12) << orientation;
+      }
+    }
+  }
+}
+
 TEST(Cutter, ATextMayEndWithoutG40) {
   Interpreter interpreter;
   JobReader reader(interpreter);

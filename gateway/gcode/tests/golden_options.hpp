@@ -9,7 +9,8 @@ namespace kinebus::gcode {
 
 /// Home 200 mm above the table, one spare tool of 12.5 mm, 6 mm wide. A file changes it with "options: word
 /// word" anywhere in its text: block_delete, dwell_seconds, traverse_uses_feed, default_feed, two_tools,
-/// five_tools, spindle, encoder (on the spindle), probe, dialect=NAME, macros (prime LENGTH=, square with an
+/// five_tools, spindle, encoder (on the spindle), taps (it turns
+/// back in them), probe, dialect=NAME, macros (prime LENGTH=, square with an
 /// argument by number, wipe, wrong), linuxcnc, printer (macros that profiles of printers call).
 inline Options golden_options(std::string_view text) {
   Options options;
@@ -35,6 +36,7 @@ inline Options golden_options(std::string_view text) {
   options.probe_pin = says("probe_pin");
   options.spindle = says("spindle");
   options.spindle_encoder = says("encoder");
+  if (says("taps")) options.tap_rpm_per_s = 3000;
   if (options.spindle) options.tools = 100'000;
   if (says("macros"))
     options.macros = {{"prime",
@@ -59,6 +61,7 @@ inline Options golden_options(std::string_view text) {
   if (says("linuxcnc")) {  // as tests/linuxcnc_corpus has its peer: T7 is 0.7 mm long and 0.35 mm wide
     options.dialect = Dialect::kLinuxCnc;
     options.spindle = options.spindle_encoder = true;
+    options.tap_rpm_per_s = 3000;
     options.tools = 100'000;
     options.probe = ProbeFitted::kFitted;
     options.probe_mm_per_s = 1e6;

@@ -247,7 +247,7 @@ class BlockReader {
       return fail(column, say("G codes are 0 to 999.9 with one decimal place at most"));
     const int number = static_cast<int>(tenths);
     GGroup group = g_group(number);
-    if (number == kThread || number == kThreadingCycle) [[unlikely]]
+    if (number == kThread || number == kRigidTap || number == kThreadingCycle) [[unlikely]]
       group = state_.modal.threads ? GGroup::kMotion
               : number == kThread  ? GGroup::kHarmless
                                    : GGroup::kUnknown;

@@ -76,10 +76,8 @@ struct Reason {
 };
 constexpr std::array<Reason, 7> kGReasons = {{
     {330, phrase("%1 turns with the spindle, which needs an encoder on it")},
-    {331,
-     phrase(
-         "%1 reverses with the spindle in the hole, which path time cannot: use G84 or G74 with a floating "
-         "holder")},
+    {331, phrase("%1 turns back in the hole with the spindle, which needs an encoder on it and "
+                 "spindle.tap_rpm_per_s in the machine file; G84 and G74 are for a floating holder")},
     {380, phrase("%1 needs a decimal: G38.2 to G38.5")},
     {683, phrase("G68.3 is not supported: use G68.2 with I J K")},
     {760, phrase("G76 means threading to some and fine boring to others; both need a spindle that follows an "

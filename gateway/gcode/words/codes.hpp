@@ -13,7 +13,7 @@
 namespace kinebus::gcode {
 
 /// Threads, in tenths, on a machine with a spindle; to printers G33 calibrates, and G76 is unknown.
-inline constexpr int kThread = 330, kThreadingCycle = 760;
+inline constexpr int kThread = 330, kRigidTap = 331, kThreadingCycle = 760;
 
 /// G codes of one group exclude one another in a line.
 enum class GGroup : std::uint8_t {

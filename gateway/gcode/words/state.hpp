@@ -60,6 +60,7 @@ struct ModalState {
   bool a_extrudes = false;                      ///< A of this text is E (Mach3, Machinekit)
   int spindle_turns = 0;                        ///< M3 1, M4 -1, M5 0
   int tool = 0;
+  double per_turn_rpm = 0;               ///< as canonical::FeedPerTurn has told it last
   double thread_mm = 0;                  ///< K of the G33 under way; 0: none is
   double spindle_rpm = 0;                ///< the last S, or what G96 has made of it
   double surface_m_per_min = 0;          ///< the last S under G96
@@ -156,6 +157,7 @@ struct ToolEntry {
   int tool = 0;
   std::array<double, 3> offset_mm{};
   double diameter_mm = 0;
+  int orientation = 0;  ///< of a lathe's tool: where its tip is, as LinuxCNC counts; 0 and 9: in its middle
 };
 
 /// Of M70 and M73; without modes nothing is kept.

@@ -100,6 +100,30 @@ TEST_F(Inputs, AnEdgeCountsHoweverLongTheInputWasOnBefore) {
   EXPECT_NEAR(x(), 20, 1e-2);
 }
 
+TEST_F(Inputs, APulseIsSeenHoweverShortItIsIfItOutlastsTheDebouncing) {
+  for (const auto pulse : {600us, 1000us, 2000us, 5000us, 10'000us}) {
+    ASSERT_TRUE(begin("G1 X-20 Y0 Z10 F3000\nM66 P2 L1 Q3\nG1 X[#5399 * 20]\n")) << rig.story();
+    ASSERT_TRUE(waits()) << rig.story();
+    rig.run(537ms);
+    set(true);
+    rig.run(pulse);
+    set(false);
+    ASSERT_TRUE(rig.finish()) << rig.story();
+    EXPECT_NEAR(x(), 20, 1e-2) << "a pulse of " << pulse.count() << " us was not seen";
+    // The other edge, of an input that is on.
+    set(true);
+    ASSERT_TRUE(begin("G1 X-20 Y0 Z10 F3000\nM66 P2 L2 Q3\nG1 X[10 + #5399 * 20]\n")) << rig.story();
+    ASSERT_TRUE(waits()) << rig.story();
+    rig.run(537ms);
+    set(false);
+    rig.run(pulse);
+    set(true);
+    ASSERT_TRUE(rig.finish()) << rig.story();
+    EXPECT_NEAR(x(), 10, 1e-2) << "a gap of " << pulse.count() << " us was not seen";
+    set(false);
+  }
+}
+
 TEST_F(Inputs, AHoldStopsTheTimeAndWhatTheInputDoesMeanwhile) {
   ASSERT_TRUE(begin("G1 X-20 Y0 Z10 F3000\nM66 P2 L1 Q5\nG1 X[#5399 * 20]\n")) << rig.story();
   ASSERT_TRUE(waits()) << rig.story();

@@ -164,5 +164,229 @@ TEST_F(Threads, WhatTheMachineCannotFollowIsRefusedBeforeAnythingMoves) {
   }
 }
 
+MachineDescription tapping_machine() {
+  MachineDescription machine = lathe();
+  machine.spindle.tap_rpm_per_s = 3000;
+  return machine;
+}
+
+class Taps : public Threads {
+ protected:
+  Taps() : Threads(tapping_machine()) {}
+
+  /// Looks at each moment of one tap along X, from 0 to `deep` and back, between `from` and `deep`.
+  struct Looks {
+    int in = 0, out = 0;
+    double error_mm = 0;       ///< tool against the spindle's angle, at most
+    double turn_error_mm = 0;  ///< of that while the spindle turned slower than half of S
+    double deepest_mm = 0;
+    double slowest_rpm = 1e9, back_rpm = 0;
+  };
+  Looks tap(double from, double pitch, const std::function<bool()>& enough = {}) {
+    Looks looks;
+    double told = 0, angle = 0, sum = 0;
+    std::vector<std::pair<double, double>> errors;  // place beside the angle, rpm
+    const bool ended = rig.run_until(
+        [&] {
+          const SpindleStatus spindle = rig.gateway->status().spindle;
+          const double x = rig.joints()[0];
+          if (spindle.angle && spindle.angle->at == rig.now) {
+            angle += (spindle.actual_rpm < 0 ? -1 : 1) * (spindle.angle->turns - told);
+            told = spindle.angle->turns;
+            if (x > from) {
+              ++(spindle.actual_rpm < 0 ? looks.out : looks.in);
+              errors.emplace_back(x - pitch * angle, spindle.actual_rpm);
+              looks.slowest_rpm = std::min(looks.slowest_rpm, std::abs(spindle.actual_rpm));
+              looks.back_rpm = std::min(looks.back_rpm, spindle.actual_rpm);
+            }
+          }
+          looks.deepest_mm = std::max(looks.deepest_mm, x);
+          if (enough && enough()) return true;
+          return rig.gateway->state() == MachineState::kReady;
+        },
+        60s);
+    EXPECT_TRUE(ended) << rig.story();
+    for (const auto& [start, rpm] : errors) sum += start;
+    const double mean = sum / static_cast<double>(std::max<std::size_t>(1, errors.size()));
+    for (const auto& [start, rpm] : errors) {
+      looks.error_mm = std::max(looks.error_mm, std::abs(start - mean));
+      if (std::abs(rpm) < 300) looks.turn_error_mm = std::max(looks.turn_error_mm, std::abs(start - mean));
+    }
+    std::printf(
+        "in %d, out %d looks, within %.1f um, while turning back %.1f um; deepest %.4f mm, back %.0f rpm\n",
+        looks.in, looks.out, 1000 * looks.error_mm, 1000 * looks.turn_error_mm, looks.deepest_mm,
+        looks.back_rpm);
+    return looks;
+  }
+};
+
+TEST_F(Taps, TheToolTurnsBackWithTheSpindle) {
+  ASSERT_TRUE(begin("M3 S600\nG0 X0\nG33.1 X20 K1.5\nG4 P0.5\n"));
+  const Looks looks = tap(2, 1.5);
+  EXPECT_GT(looks.in, 300);
+  EXPECT_GT(looks.out, 300);
+  EXPECT_LT(looks.slowest_rpm, 30) << "or it was not seen to turn back";
+  EXPECT_LT(looks.back_rpm, -500);
+  EXPECT_LT(looks.error_mm, 0.045);
+  EXPECT_LT(looks.turn_error_mm, 0.020);
+  EXPECT_NEAR(looks.deepest_mm, 20, 0.005);
+  EXPECT_NEAR(rig.joints()[0], 0, 1e-3) << "it ends where it began";
+}
+
+TEST_F(Taps, ALeftHandedOneAndAFastFineOneAreAsGood) {
+  ASSERT_TRUE(begin("M4 S400\nG0 X0\nG33.1 X14 K2\n"));
+  EXPECT_TRUE(rig.run_until([&] { return rig.gateway->status().spindle.actual_rpm > 300; }, 20s))
+      << "it turns back";
+  ASSERT_TRUE(rig.reach(MachineState::kReady)) << rig.story();
+  EXPECT_NEAR(rig.joints()[0], 0, 1e-3);
+  ASSERT_TRUE(begin("M3 S1500\nG0 X0\nG33.1 X16 K0.5\nG4 P0.5\n"));
+  const Looks looks = tap(2, 0.5);
+  EXPECT_LT(looks.error_mm, 0.045);
+  EXPECT_NEAR(looks.deepest_mm, 16, 0.005);
+}
+
+TEST_F(Taps, TheSpindleTurnsAsBeforeWhenTheNextLineMoves) {
+  ASSERT_TRUE(begin("M3 S600\nG0 X0\nG33.1 X20 K1.5\nG1 Y5 F600\n"));
+  ASSERT_TRUE(rig.run_until([&] { return rig.joints()[0] > 15; }, 20s));
+  ASSERT_TRUE(rig.run_until([&] { return rig.joints()[1] > 0.05; }, 20s)) << rig.story();
+  EXPECT_GT(rig.gateway->status().spindle.actual_rpm, 500);
+}
+
+TEST_F(Taps, AHoldWaitsUntilItIsOutAndACancelIsRefusedMeanwhile) {
+  ASSERT_TRUE(begin("M3 S600\nG0 X0\nG33.1 X20 K1.5\nG1 Y5 F600\n"));
+  ASSERT_TRUE(rig.run_until([&] { return rig.joints()[0] > 10; }, 20s));
+  const auto cancelled = rig.gateway->carry_out(command::Cancel{});
+  ASSERT_FALSE(cancelled);
+  ASSERT_TRUE(rig.gateway->carry_out(command::Hold{}));
+  ASSERT_TRUE(rig.reach(MachineState::kHeld)) << rig.story();
+  EXPECT_NEAR(rig.joints()[0], 0, 0.01);
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
+  ASSERT_TRUE(rig.reach(MachineState::kReady)) << rig.story();
+}
+
+TEST_F(Taps, AStopRestsInTheHoleAndEndsTheJob) {
+  ASSERT_TRUE(begin("M3 S600\nG0 X0\nG33.1 X20 K1.5\n"));
+  ASSERT_TRUE(rig.run_until([&] { return rig.joints()[0] > 10; }, 20s));
+  ASSERT_TRUE(rig.gateway->carry_out(command::Stop{}));
+  ASSERT_TRUE(rig.reach(MachineState::kStopped)) << rig.story();
+  EXPECT_LT(rig.joints()[0], 13);
+  EXPECT_NE(rig.story().find("it was stopped in a thread"), std::string::npos) << rig.story();
+}
+
+TEST_F(Taps, WhatHasNoRoomToTurnBackIsRefusedBeforeAnythingMoves) {
+  for (const auto& [text, words] : {std::pair{"M3 S600\nG33.1 X4 K1.5\n", "the tap needs 4.7"},
+                                    std::pair{"M3 S3000\nG33.1 X40 K10\n", "the thread needs 550 mm/s"},
+                                    std::pair{"M3 S600\nG33.1 X40 K1.5 I3\n", "I of G33.1 is 1 at most"}}) {
+    ASSERT_TRUE(begin(text));
+    const double x = rig.joints()[0];
+    ASSERT_TRUE(rig.reach(MachineState::kReady)) << rig.story();
+    EXPECT_NE(rig.story().find(words), std::string::npos) << rig.story();
+    EXPECT_NEAR(rig.joints()[0], x, 1e-3);
+  }
+}
+
+TEST_F(Taps, G84IsRigidWhereTheSpindleCanBeTurnedBack) {
+  // G19 drills along X.
+  ASSERT_TRUE(begin("M3 S600\nG0 X40\nG19 G84 X10 R30 F900\nG80\n"));
+  double deepest = 1e9, worst = 0, told = 0, angle = 0, first = 0;
+  bool begun = false;
+  ASSERT_TRUE(rig.run_until([&] { return rig.joints()[0] > 39; }, 20s)) << rig.story();
+  told = rig.gateway->status().spindle.angle->turns;
+  ASSERT_TRUE(rig.run_until(
+      [&] {
+        const SpindleStatus spindle = rig.gateway->status().spindle;
+        const double x = rig.joints()[0];
+        deepest = std::min(deepest, x);
+        if (!spindle.angle || spindle.angle->at != rig.now) return false;
+        angle += (spindle.actual_rpm < 0 ? -1 : 1) * (spindle.angle->turns - told);
+        told = spindle.angle->turns;
+        if (x > 28 || deepest > 28) return rig.gateway->state() == MachineState::kReady;
+        if (!std::exchange(begun, true)) first = x + 1.5 * angle;
+        worst = std::max(worst, std::abs(x + 1.5 * angle - first));
+        return rig.gateway->state() == MachineState::kReady;
+      },
+      60s))
+      << rig.story();
+  EXPECT_NEAR(deepest, 10, 0.005);
+  EXPECT_LT(worst, 0.08) << "both ways";
+  EXPECT_NEAR(rig.joints()[0], 40, 1e-3);
+}
+
+/// What is fed at each look, against the turns that the spindle makes meanwhile.
+class FeedPerTurn : public Threads {
+ protected:
+  struct Cut {
+    double mm = 0, turns = 0;
+    double least = 1e9, most = 0;  ///< mm a turn over a quarter of a second
+  };
+  Cut cut_between(double from, double to) {
+    Cut cut;
+    std::optional<std::pair<double, double>> begin, mark;
+    BusTime marked{0};
+    EXPECT_TRUE(rig.run_until(
+        [&] {
+          const SpindleStatus spindle = rig.gateway->status().spindle;
+          const double x = rig.joints()[0];
+          if (!spindle.angle || spindle.angle->at != rig.now || x < from) return x > to;
+          if (!begin) begin = mark = {x, spindle.angle->turns}, marked = rig.now;
+          cut.mm = x - begin->first;
+          cut.turns = spindle.angle->turns - begin->second;
+          if (rig.now - marked >= 250ms) {
+            const double feed = (x - mark->first) / (spindle.angle->turns - mark->second);
+            cut.least = std::min(cut.least, feed);
+            cut.most = std::max(cut.most, feed);
+            mark = {x, spindle.angle->turns};
+            marked = rig.now;
+          }
+          return x > to;
+        },
+        60s))
+        << rig.story();
+    std::printf("%.4f mm a turn in the mean, %.4f to %.4f over a quarter of a second\n", cut.mm / cut.turns,
+                cut.least, cut.most);
+    return cut;
+  }
+};
+
+TEST_F(FeedPerTurn, FollowsTheSpeedThatIsMeasured) {
+  ASSERT_TRUE(begin("M3 S600\nG0 X0\nG95 G1 X40 F0.5\nG94 G1 X60 F600\n"));
+  const Cut cut = cut_between(2, 38);
+  EXPECT_NEAR(cut.mm / cut.turns, 0.5, 0.002);
+  EXPECT_GT(cut.least, 0.985 * 0.5);
+  EXPECT_LT(cut.most, 1.015 * 0.5);
+  // By the minute nothing is asked of the spindle.
+  ASSERT_TRUE(rig.run_until([&] { return rig.joints()[0] > 42; }, 20s));
+  const BusTime begun = rig.now;
+  ASSERT_TRUE(rig.run_until([&] { return rig.joints()[0] > 58; }, 20s));
+  EXPECT_NEAR(to_seconds(rig.now - begun), 1.6, 0.02);
+}
+
+TEST_F(FeedPerTurn, AnOverrideCountsOnTop) {
+  ASSERT_TRUE(begin("M3 S600\nG0 X0\nG95 G1 X40 F0.5\n"));
+  ASSERT_TRUE(rig.run_until([&] { return rig.joints()[0] > 4; }, 20s));
+  ASSERT_TRUE(rig.gateway->carry_out(command::SetFeedOverride{0.5}));
+  const Cut cut = cut_between(8, 38);
+  EXPECT_NEAR(cut.mm / cut.turns, 0.25, 0.002);
+}
+
+TEST_F(Threads, ASurfaceSpeedKeepsWithinItsLimit) {
+  // 100 m/min are 796 rpm at X20, 1592 at X10, and more than the spindle can at X1.
+  ASSERT_TRUE(begin("G0 X20\nG96 S100 D2500 M3\nG0 X10\nG4 P0.1\nG0 X1\nG4 P0.1\nG96 S100 D800\nG4 P0.1\n"));
+  std::vector<double> told;
+  ASSERT_TRUE(rig.run_until(
+      [&] {
+        const double rpm = rig.gateway->status().spindle.target_rpm;
+        if (told.empty() || told.back() != rpm) told.push_back(rpm);
+        return rig.gateway->state() == MachineState::kReady;
+      },
+      60s))
+      << rig.story();
+  ASSERT_GE(told.size(), 5U);
+  EXPECT_NEAR(told[1], 795.8, 0.1);
+  EXPECT_NEAR(told[2], 1591.5, 0.1);
+  EXPECT_EQ(told[3], 2500);
+  EXPECT_EQ(told[4], 800);
+}
+
 }  // namespace
 }  // namespace kinebus

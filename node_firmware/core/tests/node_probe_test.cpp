@@ -81,5 +81,48 @@ TEST(NodeProbe, IsNoPartOfTheFingerprint) {
   EXPECT_EQ(bench.read(kProbeNode, 0x2116, 0), before);
 }
 
+/// What TPDO1 told of the input since the frame `from`, one after the other.
+std::vector<bool> told(const Bench& bench, std::size_t from) {
+  std::vector<bool> levels;
+  for (std::size_t i = from; i < bench.seen.size(); ++i) {
+    const CanFrame& frame = bench.seen[i].frame;
+    if (frame.id != 0x180U + kProbeNode) continue;
+    const bool on = (frame.data[6] >> kInput & 1U) != 0;
+    if (levels.empty() || levels.back() != on) levels.push_back(on);
+  }
+  return levels;
+}
+
+TEST(NodeInputs, APulseIsToldThoughItIsOverWhenTheMainLoopHearsOfIt) {
+  Bench bench = probing_bench();
+  bench.send(nmt_frame(NmtCommand::kStart, kAllNodes));
+  bench.run(50ms);
+  for (const auto late : {LocalTime{0}, LocalTime{4'000'000}}) {
+    const std::size_t from = bench.seen.size();
+    const LocalTime begin = bench.local() - late;
+    bench.node().on_switch(begin, kInput, true);
+    bench.node().on_switch(begin + LocalTime{600'000}, kInput, false);
+    bench.read(kProbeNode, 0x1000, 0);  // the main loop comes round
+    bench.run(100ms);
+    EXPECT_EQ(told(bench, from), (std::vector<bool>{true, false})) << "late by " << late.count() << " ns";
+    EXPECT_EQ(bench.read(kProbeNode, 0x2133, 0), 0);
+  }
+  // Shorter than the debounce time it is none.
+  const std::size_t from = bench.seen.size();
+  bench.node().on_switch(bench.local(), kInput, true);
+  bench.node().on_switch(bench.local() + LocalTime{400'000}, kInput, false);
+  bench.run(100ms);
+  for (const bool on : told(bench, from)) EXPECT_FALSE(on);
+}
+
+TEST(NodeInputs, WhoseChangesNobodyHearsIsReadAsItIs) {
+  Bench bench = probing_bench();  // not operational: TPDO1 is not sent
+  bench.node().on_switch(bench.local(), kInput, true);
+  bench.run(2ms);
+  bench.node().on_switch(bench.local(), kInput, false);
+  bench.run(50ms);
+  EXPECT_EQ(bench.read(kProbeNode, 0x2133, 0), 0);
+}
+
 }  // namespace
 }  // namespace kinebus::testing_bench

@@ -67,6 +67,18 @@ TEST(Plot, CurvesStayRoundAndLinesStayShort) {
   EXPECT_LE(straight.path().front().size(), 2u);
 }
 
+TEST(Plot, AWayThereAndBackIsDrawn) {
+  PlotData tap;
+  for (int i = 0; i <= 800; ++i) {
+    const float z = 40 - static_cast<float>(i <= 400 ? i : 800 - i) * 0.05f;
+    tap.add({.speed_mm_per_s = 10, .tool_mm = {10, 10, z}});
+  }
+  float deepest = 40;
+  for (const PlotData::Stretch& stretch : tap.path())
+    for (const auto& point : stretch) deepest = std::min(deepest, point.mm[2]);
+  EXPECT_LT(deepest, 20.5f);  // what is drawn is 0.4 mm exact
+}
+
 TEST(Plot, ATravelIsNoLineThoughEWavers) {
   PlotData data;
   PlotData::Point point{.speed_mm_per_s = 30, .e_mm = 5000};

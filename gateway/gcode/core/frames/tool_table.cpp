@@ -39,6 +39,8 @@ ToolEntry Core::tool_entry(int tool) const {
   const auto at = static_cast<std::size_t>(tool - 1);
   if (tool >= 1 && at < options_.tool_length_mm.size()) entry.offset_mm[2] = options_.tool_length_mm[at];
   if (tool >= 1 && at < options_.tool_diameter_mm.size()) entry.diameter_mm = options_.tool_diameter_mm[at];
+  if (tool >= 1 && at < options_.tool_orientation.size())
+    entry.orientation = static_cast<int>(options_.tool_orientation[at]);
   return entry;
 }
 
@@ -73,7 +75,8 @@ bool Core::set_tool_table(Code code, int l) {
   const bool has_radius = has('R');
   if (!take_if_given('R', radius)) return false;
   if (has_radius) entry.diameter_mm = 2 * length(radius);
-  for (const char letter : {'I', 'J', 'Q'}) pass_over(letter);  // angles and orientation of lathe tools
+  if (has('Q') && !take_integer('Q', 0, 9, entry.orientation)) return false;
+  for (const char letter : {'I', 'J'}) pass_over(letter);  // angles of lathe tools
   for (ToolEntry& known : state_.tools) {
     if (known.tool != tool) continue;
     known = entry;
