@@ -233,6 +233,9 @@ class Rules {
             {"gcode.traverse_mm_per_s", "path.tool_speed_mm_per_s"},
             Sentence::verbatim(number(d_.gcode.traverse_mm_per_s)),
             say("at most the tool's speed, %1", number(d_.path.tool_speed_mm_per_s)));
+    for (const double side : d_.gcode.tool_orientation)
+      require(side == std::floor(side), {"gcode.tool_orientation"}, Sentence::verbatim(number(side)),
+              say("a whole number in %1 .. %2", 0, 9));
     for (const MacroDescription& macro : d_.macros)
       for (const MacroDescription* other = d_.macros.data(); other != &macro; ++other)
         require(gcode::in_lower_case(other->name) != gcode::in_lower_case(macro.name),

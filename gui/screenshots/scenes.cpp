@@ -17,6 +17,19 @@ void whole_machine(MainWindow& window, Photographer& photographer, const QString
   photographer.one(MainWindow::kView, name);
 }
 
+/// Again until it is taken: one that comes while the machine still moves may be refused.
+void go(Desk& desk, const char* line) {
+  bool taken = false, asked = false;
+  wait(line, [&] {
+    if (!asked && desk.session.status().state() == joblink::STATE_READY) {
+      asked = true;
+      desk.session.console(QString::fromLatin1(line),
+                           [&](const joblink::Reply& reply) { asked = taken = !reply.has_error(); });
+    }
+    return taken;
+  });
+}
+
 void around_the_part(MainWindow& window, Photographer& photographer, const QString& name) {
   window.view_page().scene().fit_part();
   photographer.one(MainWindow::kView, name);
@@ -32,7 +45,6 @@ void turn_to(Desk& desk, const char* machine) {
 
 void say_line(Desk& desk, MainWindow& window, const char* line) {
   window.console_page().send(QString::fromLatin1(line));
-  // A line that comes while the machine still moves may be refused.
   wait(line, [&, from = desk.session.status().time_s()] {
     return desk.session.status().time_s() > from + 0.3 &&
            desk.session.status().state() == joblink::STATE_READY;
@@ -57,13 +69,13 @@ void photograph_m1(Desk& desk, MainWindow& window, Photographer& photographer) {
   around_the_part(window, photographer, QStringLiteral("11-scene-m1-tilted-part"));
   // Past the corner where leg 3 carries the platform, which comes within 3 mm of the nozzle there.
   for (const char* line : {"G90", "G43.4", "G1 Z60 F3000", "G1 A45", "G1 X-124 Y-40", "G1 Z4", "G1 Y-72"})
-    say_line(desk, window, line);
+    go(desk, line);
   const auto& tool = desk.session.status().tool();
   wait("leg and nozzle are close",
        [&] { return std::abs(tool.x_mm() + 124) < 0.1 && std::abs(tool.y_mm() + 72) < 0.1; });
   whole_machine(window, photographer, QStringLiteral("11-scene-m1-close"));
   around_the_part(window, photographer, QStringLiteral("11-scene-m1-close-part"));
-  for (const char* line : {"G1 Z60", "G1 A0", "G49"}) say_line(desk, window, line);
+  for (const char* line : {"G1 Z60", "G1 A0", "G49"}) go(desk, line);
   desk.session.go_to_reference();
   wait("it is upright", [&] {
     return state() == joblink::STATE_READY && std::abs(desk.session.status().tool().a_rad()) < 1e-3;

@@ -200,8 +200,9 @@ joblink::Reply Client::try_ask(ClientMessage request) {
 
 joblink::Reply Client::ask(ClientMessage request) {
   joblink::Reply reply = try_ask(std::move(request));
-  if (reply.has_error()) throw ClientError(to_words(reply.error()));
-  return reply;
+  if (!reply.has_error()) return reply;
+  const bool by_force = reply.error().code() == joblink::ERROR_NO_CONTROL;
+  throw ClientError(to_words(reply.error()) + (by_force ? " (kinebus --force)" : ""));
 }
 
 std::optional<Client::Report> Client::next(milliseconds timeout) {

@@ -114,6 +114,8 @@ TEST(MachineFile, AWrongKeyIsRefusedWithItsLineWhatWasFoundAndWhatIsAllowed) {
        "joint.tower1.hold_current_ma: found 2500; expected at most run_current_ma, 2000"},
       {"sync_timeout_ms = 175", "sync_timeout_ms = 60",
        "bus.sync_timeout_ms: found 60; expected at least two SYNC periods, 100"},
+      {"traverse_mm_per_s = 300", "tool_orientation = [2, 2.5]\ntraverse_mm_per_s = 300",
+       "gcode.tool_orientation: found 2.5; expected a whole number in 0 .. 9"},
       {"traverse_mm_per_s = 300", "traverse_mm_per_s = 301",
        "gcode.traverse_mm_per_s: found 301; expected at most the tool's speed, 300"},
   };
