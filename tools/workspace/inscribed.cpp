@@ -38,9 +38,9 @@ Cylinder largest_from(const Scan& s, const std::vector<int>& free, int low, doub
   for (int high = low; high < s.planes; ++high) {
     least = std::min(least, free[static_cast<std::size_t>(high)]);
     if (least == 0) break;
+    const double top_mm = s.room.z_min_mm + (high + 1) * s.options.step_mm;
     const Cylinder c{std::min(least * s.options.step_mm, most_radius_mm),
-                     s.room.z_min_mm + low * s.options.step_mm,
-                     s.room.z_min_mm + (high + 1) * s.options.step_mm};
+                     s.room.z_min_mm + low * s.options.step_mm, std::min(top_mm, s.room.z_max_mm)};
     if (c.volume_mm3() > best.volume_mm3()) best = c;
   }
   return best;
@@ -61,7 +61,10 @@ Cylinder largest_cylinder(const Scan& s, int tilt) {
 Cylinder standing_cylinder(const Scan& s, double table_radius_mm) {
   int low = 0;
   while (low + 1 < s.planes && s.z_mm(low) < 0) ++low;
-  return largest_from(s, free_cells(s, -1), low, table_radius_mm);
+  Cylinder standing = largest_from(s, free_cells(s, -1), low, table_radius_mm);
+  // The plane nearest to the table reaches a little below or begins a little above it.
+  if (standing.z_max_mm > 0) standing.z_min_mm = std::max(0.0, s.room.z_min_mm);
+  return standing;
 }
 
 }  // namespace kinebus::workspace

@@ -106,11 +106,15 @@ TEST(Scan, ACylinderStandsOnTheTableAndIsNoWiderThanIt) {
   CartesianGeometry g;
   g.x_mm = g.y_mm = g.z_mm = {-1000, 1000};
   const auto cartesian = *make_cartesian_kinematics(g);
+  // Whatever the planes' distance, neither through the table nor above the room.
+  for (const int step_mm : {2, 9, 11}) {
+    const Cylinder c = standing_cylinder(scan(*cartesian, {100, -20, 50, 0, 0}, coarse(step_mm)), 60);
+    EXPECT_DOUBLE_EQ(c.radius_mm, 60);
+    EXPECT_DOUBLE_EQ(c.z_min_mm, 0);
+    EXPECT_LE(c.z_max_mm, 50);
+    EXPECT_GT(c.z_max_mm, 50 - step_mm);
+  }
   Scan s = scan(*cartesian, {100, -20, 50, 0, 0}, coarse(2));
-  const Cylinder c = standing_cylinder(s, 60);
-  EXPECT_DOUBLE_EQ(c.radius_mm, 60);
-  EXPECT_NEAR(c.z_min_mm, 0, s.options.step_mm);
-  EXPECT_NEAR(c.z_max_mm, 50, s.options.step_mm);
   // Something on the table near its axis: nothing stands there.
   for (int plane = 0; plane < s.planes; ++plane)
     if (s.z_mm(plane) < 10) s.allowed[s.cell(plane, 0, 0)] = 0;
