@@ -70,9 +70,11 @@ void photograph_m1(Desk& desk, MainWindow& window, Photographer& photographer) {
   // Past the corner where leg 3 carries the platform, which comes within 3 mm of the nozzle there.
   for (const char* line : {"G90", "G43.4", "G1 Z60 F3000", "G1 A45", "G1 X-124 Y-40", "G1 Z4", "G1 Y-72"})
     go(desk, line);
-  const auto& tool = desk.session.status().tool();
-  wait("leg and nozzle are close",
-       [&] { return std::abs(tool.x_mm() + 124) < 0.1 && std::abs(tool.y_mm() + 72) < 0.1; });
+  // Asked anew each time: every status is another one.
+  wait("leg and nozzle are close", [&] {
+    const auto& tool = desk.session.status().tool();
+    return std::abs(tool.x_mm() + 124) < 0.1 && std::abs(tool.y_mm() + 72) < 0.1;
+  });
   whole_machine(window, photographer, QStringLiteral("11-scene-m1-close"));
   around_the_part(window, photographer, QStringLiteral("11-scene-m1-close-part"));
   for (const char* line : {"G1 Z60", "G1 A0", "G49"}) go(desk, line);

@@ -144,7 +144,7 @@ std::string picture(const std::string& title, const std::vector<DrawnPiece>& pie
   const double scale = std::min(together.scale_for(500, 430), apart.scale_for(500, 430));
   drawing::Document document(1200, 640);
   document.heading(40, title,
-                   "the part in one piece, and taken apart in the order of printing; every piece stands on a "
+                   "The part in one piece, and taken apart in the order of printing; every piece stands on a "
                    "level face");
   together.draw(document, {40, 95, 540, 450}, scale);
   apart.draw(document, {620, 95, 540, 450}, scale);

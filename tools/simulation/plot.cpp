@@ -90,7 +90,7 @@ View make_view(const PlotData& data) {
     view.box[i].high = step * std::ceil(view.box[i].high / step + 0.2);
   }
   view.box[2].low = std::min(0.0, view.box[2].low);
-  view.fit(kMargin, kTop, kWidth - 2 * kMargin - 60, kSceneHeight - 40);
+  view.fit(kMargin, kTop + 34, kWidth - 2 * kMargin - 60, kSceneHeight - 74);
   return view;
 }
 

@@ -1,5 +1,3 @@
-#include "gateway/jobs/store/job_store.hpp"
-
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -7,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "gateway/jobs/store/tests/temporary_folder.hpp"
+#include "gateway/jobs/store/tests/job_store_fixture.hpp"
 #include "protocol/joblink/job_hash.hpp"
 
 namespace kinebus {
@@ -15,6 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using joblink::job_hash_of;
+using testing_store::identity_of;
+using testing_store::JobStoreTest;
 
 std::string text_of(std::size_t size, unsigned seed = 1) {
   std::string text(size, '\0');
@@ -27,33 +27,6 @@ std::string file_text(const fs::path& path) {
   text << in.rdbuf();
   return std::move(text).str();
 }
-UploadIdentity identity_of(const std::string& name, const std::string& text) {
-  return {name, text.size(), job_hash_of(text)};
-}
-
-class JobStoreTest : public ::testing::Test {
- protected:
-  TemporaryFolder folder_;
-  JobStore::Options options_{.folder = folder_.path() / "jobs", .margin_bytes = 0};
-  std::unique_ptr<JobStore> store_ = JobStore::open(options_, 1000);
-
-  void reopen(double now = 2000) {
-    store_.reset();
-    store_ = JobStore::open(options_, now);
-  }
-  /// Empty: stored.
-  std::string put(const std::string& name, const std::string& text, bool replace = true) {
-    const auto begun = store_->begin_upload(identity_of(name, text), replace, 1000);
-    if (!begun) return begun.error().words;
-    if (begun->stored) return {};
-    const auto sent = store_->append(begun->id, begun->received_bytes,
-                                     std::string_view(text).substr(begun->received_bytes));
-    if (!sent) return sent.error().words;
-    const auto done = store_->commit(begun->id, 1234);
-    return done ? Sentence() : done.error().words;
-  }
-};
-
 TEST_F(JobStoreTest, AnUploadIsInvisibleUntilItIsWhole) {
   const std::string text = text_of(5000);
   const auto begun = store_->begin_upload(identity_of("a.gcode", text), false, 1000);
@@ -251,57 +224,6 @@ TEST_F(JobStoreTest, AFileOfAPrintHostIsNoJobUntilItIsTakenOver) {
   EXPECT_TRUE(store_->find("host.gcode"));
   EXPECT_FALSE(store_->adopt(written, "again.gcode", 1500));
   EXPECT_FALSE(store_->find("again.gcode"));
-}
-
-TEST_F(JobStoreTest, HistoryTellsHowEachRunEnded) {
-  EXPECT_EQ(put("a", "1"), "");
-  const auto first = store_->begin_run({.name = "a", .hash = job_hash_of("1"), .begun_unix_s = 10});
-  ASSERT_TRUE(first);
-  EXPECT_TRUE(store_->end_run(*first, RunResult::kComplete, 61.5, 60, 900, ""));
-  const auto second = store_->begin_run({.name = "a", .hash = job_hash_of("1"), .begun_unix_s = 100});
-  ASSERT_TRUE(second);
-  reopen();
-  const auto runs = *store_->history(0, 10);
-  ASSERT_EQ(runs.size(), 2U);
-  EXPECT_EQ(runs[0].result, RunResult::kInterrupted);
-  EXPECT_EQ(runs[0].first_error, "the gateway ended while the job ran");
-  EXPECT_EQ(runs[1].result, RunResult::kComplete);
-  EXPECT_EQ(runs[1].duration_s, 61.5);
-  EXPECT_EQ(runs[1].estimate_s, 60);
-  EXPECT_EQ(store_->history(runs[0].id, 10)->size(), 1U);
-  EXPECT_EQ(store_->list()->jobs[0].times_run, 2U);
-  EXPECT_EQ(store_->list()->jobs[0].last_run->id, runs[0].id);
-}
-
-TEST_F(JobStoreTest, WhatRunsOnceIsBegunOnceAndInTheHistoryBeforeAnythingOfItHappens) {
-  EXPECT_EQ(put("part.once.gcode", "1"), "");
-  EXPECT_EQ(put("part.gcode", "1"), "");
-  ASSERT_TRUE(store_->begin_job("part.gcode", 5));
-  const auto begun = store_->begin_job("part.once.gcode", 10);
-  ASSERT_TRUE(begun);
-  EXPECT_NE(begun->run, 0);
-  reopen();  // as after a kill: whether the machine had it already is not known, so it has begun
-  EXPECT_TRUE(store_->begin_job("part.gcode", 20));
-  const auto again = store_->begin_job("part.once.gcode", 20);
-  ASSERT_FALSE(again);
-  EXPECT_EQ(again.error().words.english(), "part.once.gcode was started before: a job of its name runs once");
-  EXPECT_EQ(put("part.once.gcode", "another text"), "");
-  EXPECT_FALSE(store_->begin_job("part.once.gcode", 30));
-  EXPECT_EQ(store_->history(0, 10)->size(), 3U);
-}
-
-TEST_F(JobStoreTest, AStartThatTheMachineRefusesIsForgottenAndOfWhatRunsOnceItIsKept) {
-  EXPECT_EQ(put("a", "1"), "");
-  EXPECT_EQ(put("a.once.gcode", "1"), "");
-  store_->refuse_run(store_->begin_job("a", 10)->run, "a", "not homed", "");
-  EXPECT_TRUE(store_->history(0, 10)->empty());
-  store_->refuse_run(store_->begin_job("a.once.gcode", 10)->run, "a.once.gcode", "not homed", "");
-  const auto runs = *store_->history(0, 10);
-  ASSERT_EQ(runs.size(), 1U);
-  EXPECT_EQ(runs[0].result, RunResult::kRefused);
-  EXPECT_EQ(runs[0].duration_s, 0);
-  EXPECT_EQ(runs[0].first_error, "not homed");
-  EXPECT_FALSE(store_->begin_job("a.once.gcode", 20));
 }
 
 TEST_F(JobStoreTest, APreflightIsThatOfItsMachineAndText) {
