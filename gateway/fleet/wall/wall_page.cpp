@@ -18,7 +18,7 @@ li b { display: block; overflow: hidden; text-overflow: ellipsis; }
 li small { color: var(--dim); display: block; min-height: 1.4em; }
 progress { width: 100%; height: .6rem; }
 </style></head><body>
-<h1>Kinebus fleet</h1><p id="totals" role="status"></p><ul id="wall"></ul>
+<main><h1>Kinebus fleet</h1><p id="totals" role="status"></p><ul id="wall"></ul></main>
 <script>
 const words = {
   en: { queued: "queued", assigned: "assigned", started: "under way", over: "over", machines: "machines", job: "job", silent: "does not answer",
@@ -37,7 +37,7 @@ function tile(name) {
   if (t) return t;
   t = { li: document.createElement("li"), name: document.createElement("b"), state: document.createElement("span"),
         more: document.createElement("small"), bar: document.createElement("progress") };
-  t.name.textContent = name; t.bar.max = 1; t.bar.setAttribute("aria-label", say.progress + " " + name);
+  t.name.textContent = name; t.name.dir = "auto"; t.bar.max = 1; t.bar.setAttribute("aria-label", say.progress + " " + name);
   for (const part of [t.name, t.state, t.more, t.bar]) t.li.append(part);
   tiles.set(name, t); wall.append(t.li);
   return t;
