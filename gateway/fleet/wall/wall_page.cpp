@@ -37,7 +37,7 @@ function tile(name) {
   if (t) return t;
   t = { li: document.createElement("li"), name: document.createElement("b"), state: document.createElement("span"),
         more: document.createElement("small"), bar: document.createElement("progress") };
-  t.name.textContent = name; t.name.dir = "auto"; t.bar.max = 1; t.bar.setAttribute("aria-label", say.progress + " " + name);
+  t.name.textContent = name; t.bar.max = 1; t.bar.setAttribute("aria-label", say.progress + " " + name);
   for (const part of [t.name, t.state, t.more, t.bar]) t.li.append(part);
   tiles.set(name, t); wall.append(t.li);
   return t;
