@@ -29,9 +29,11 @@ void add_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--credentials", arguments.credentials,
                  "Folder of the TLS certificate and the token (default: .tls in the folder of jobs)");
   app.add_option(
-      "--http", arguments.http,
-      "Also serve slicers and managers of printers (OctoPrint's and PrusaLink's requests) by HTTP on "
-      "ADDRESS:PORT; on an address that others can reach by HTTPS (default: off)");
+         "--http", arguments.http,
+         "Also serve slicers and managers of printers (OctoPrint's and PrusaLink's requests) by HTTP on "
+         "ADDRESS:PORT; on an address that others can reach by HTTPS (default: off; the last of several "
+         "counts)")
+      ->take_last();
   app.add_option("--http-key", arguments.http_key,
                  "File of the API key that HTTP clients must know (default: http-key beside the token)");
   app.add_option("--http-users", arguments.http_users,

@@ -1,13 +1,31 @@
 #include "gateway/io/stream_hub.hpp"
 
+#include <sys/epoll.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "protocol/host/socketcan.hpp"
 
 namespace kinebus {
+namespace {
+// A turn costs no more than so many times what it may use: a host that lets the loop wait is no client's
+// doing.
+constexpr int kMostTurnsPaid = 4;
+
+void set_interest(int epoll, int how, int fd, std::uint32_t events, void* who) {
+  epoll_event event{};
+  event.events = events;
+  event.data.ptr = who;
+  if (::epoll_ctl(epoll, how, fd, &event) != 0)
+    throw std::system_error(errno, std::generic_category(), "watching a stream");
+}
+}  // namespace
 
 struct StreamHub::Pair {
   std::unique_ptr<ByteStream> stream;
@@ -19,11 +37,17 @@ struct StreamHub::Pair {
 
 StreamHub::StreamHub(EventLoop& loop) : StreamHub(loop, Options()) {}
 
-StreamHub::StreamHub(EventLoop& loop, Options options) : loop_(loop), options_(options) {}
+StreamHub::StreamHub(EventLoop& loop, Options options)
+    : loop_(loop), options_(options), epoll_(::epoll_create1(EPOLL_CLOEXEC)), credit_(options.burst) {
+  if (epoll_ < 0) throw std::system_error(errno, std::generic_category(), "streams");
+  loop_.watch(epoll_, EPOLLIN, [this](std::uint32_t) { on_some_ready(); });
+}
 
 StreamHub::~StreamHub() {
   for (const auto& pair : pairs_)
     if (!pair->closed) close(*pair, "the gateway ends");
+  loop_.forget(epoll_);
+  ::close(epoll_);
 }
 
 bool StreamHub::add(std::unique_ptr<ByteStream> stream, std::unique_ptr<ByteSession> session) {
@@ -34,15 +58,14 @@ bool StreamHub::add(std::unique_ptr<ByteStream> stream, std::unique_ptr<ByteSess
   pair->interest = pair->stream->interest(false);
   Pair& kept = *pair;
   pairs_.push_back(std::move(pair));
-  loop_.watch(kept.stream->fd(), kept.interest,
-              [this, &kept](std::uint32_t events) { on_ready(kept, events); });
+  set_interest(epoll_, EPOLL_CTL_ADD, kept.stream->fd(), kept.interest, &kept);
   send(kept);
   return true;
 }
 
 void StreamHub::close(Pair& pair, const char* why) {
   pair.closed = true;
-  loop_.forget(pair.stream->fd());
+  ::epoll_ctl(epoll_, EPOLL_CTL_DEL, pair.stream->fd(), nullptr);
   const std::string reason = pair.stream->closed_reason();
   pair.session->on_closed(loop_.now(), reason.empty() ? why : reason);
 }
@@ -53,6 +76,17 @@ bool StreamHub::time_left() {
   const LocalTime now = monotonic_now();
   if (work_until_ == LocalTime::max()) work_until_ = now + options_.work_per_turn;
   return now < work_until_;
+}
+
+/// Of the streams that are ready, 16 a turn; the kernel tells of the others in the next one. None is
+/// destroyed before on_time.
+void StreamHub::on_some_ready() {
+  std::array<epoll_event, 16> ready{};
+  const int count = ::epoll_wait(epoll_, ready.data(), static_cast<int>(ready.size()), 0);
+  for (int i = 0; i < count; ++i) {
+    const epoll_event& event = ready[static_cast<std::size_t>(i)];
+    on_ready(*static_cast<Pair*>(event.data.ptr), event.events);
+  }
 }
 
 void StreamHub::on_ready(Pair& pair, std::uint32_t events) {
@@ -94,11 +128,32 @@ void StreamHub::send(Pair& pair) {
     return close(pair, "the session has ended");
   std::uint32_t interest = pair.stream->interest(waits || sent >= options_.bytes_per_turn);
   if (!pair.session->wants_bytes()) interest &= ~std::uint32_t{EPOLLIN};
-  if (interest != pair.interest) loop_.change(pair.stream->fd(), interest);
+  if (interest != pair.interest) set_interest(epoll_, EPOLL_CTL_MOD, pair.stream->fd(), interest, &pair);
   pair.interest = interest;
 }
 
+/// What this turn has used, and what has come since the last one; who has used up all rests.
+void StreamHub::pay(LocalTime now) {
+  const auto earned = [&](LocalTime time) {
+    return LocalTime{static_cast<std::int64_t>(options_.share * static_cast<double>(time.count()))};
+  };
+  credit_ = std::min(options_.burst, credit_ + earned(now - paid_));
+  paid_ = now;
+  if (work_until_ != LocalTime::max()) {
+    const LocalTime used = monotonic_now() - (work_until_ - options_.work_per_turn);
+    credit_ -= std::min(used, kMostTurnsPaid * options_.work_per_turn);
+  }
+  work_until_ = LocalTime::max();
+  if (credit_ >= LocalTime{0}) return;
+  rest_until_ =
+      now + LocalTime{static_cast<std::int64_t>(static_cast<double>(-credit_.count()) / options_.share)};
+  loop_.change(epoll_, 0);
+}
+
 void StreamHub::on_time(LocalTime now) {
+  if (now < rest_until_) return;
+  if (rest_until_ != LocalTime{0}) loop_.change(epoll_, EPOLLIN);
+  rest_until_ = LocalTime{0};
   // Sessions may make new streams' sessions speak, and close each other: the list is walked by index.
   const std::size_t count = pairs_.size();
   std::size_t served = 0;
@@ -109,7 +164,7 @@ void StreamHub::on_time(LocalTime now) {
     serve(pair, now);
   }
   first_ = count > 0 ? (first_ + served) % count : 0;
-  work_until_ = LocalTime::max();
+  pay(now);
   std::erase_if(pairs_, [](const auto& pair) { return pair->closed; });
 }
 
@@ -124,6 +179,7 @@ void StreamHub::serve(Pair& pair, LocalTime now) {
 }
 
 LocalTime StreamHub::next_deadline() const {
+  if (rest_until_ != LocalTime{0}) return rest_until_;
   LocalTime next = LocalTime::max();
   for (const auto& pair : pairs_) {
     if (pair->stream->buffered() && pair->session->wants_bytes()) return LocalTime{0};

@@ -23,6 +23,11 @@ class StreamHub : public DaemonPart {
     std::size_t bytes_per_turn = 64U << 10;
     /// Of all streams in one turn: then bus and machine come first, and whoever had no part of it after that.
     LocalTime work_per_turn = std::chrono::microseconds{500};
+    /// Of the processor that the loop has, for good; what was not used is kept for `burst`. The loop runs at
+    /// real-time priority: a flood that took all would leave nothing to the planner on a board of one core,
+    /// and the kernel stops who never sleeps (sched_rt_runtime_us) for 50 ms each second.
+    double share = 0.6;
+    LocalTime burst = std::chrono::milliseconds{200};
   };
 
   explicit StreamHub(EventLoop& loop);
@@ -43,7 +48,9 @@ class StreamHub : public DaemonPart {
 
  private:
   struct Pair;
+  void on_some_ready();
   void on_ready(Pair& pair, std::uint32_t events);
+  void pay(LocalTime now);
   void serve(Pair& pair, LocalTime now);
   bool time_left();
   void send(Pair& pair);
@@ -51,9 +58,12 @@ class StreamHub : public DaemonPart {
 
   EventLoop& loop_;
   Options options_;
+  int epoll_;  ///< of all streams: the loop looks at this one, and not while they rest
   std::vector<std::unique_ptr<Pair>> pairs_;
   std::size_t first_ = 0;                    ///< who is served first in the next turn
   LocalTime work_until_ = LocalTime::max();  ///< of this turn; max: it has not begun
+  LocalTime credit_, paid_{0};               ///< what streams may use now; when that was counted
+  LocalTime rest_until_{0};
 };
 
 }  // namespace kinebus

@@ -18,7 +18,7 @@ li b { display: block; overflow: hidden; text-overflow: ellipsis; }
 li small { color: var(--dim); display: block; min-height: 1.4em; }
 progress { width: 100%; height: .6rem; }
 </style></head><body>
-<h1>Kinebus fleet</h1><p id="totals" role="status"></p><ul id="wall"></ul>
+<main><h1>Kinebus fleet</h1><p id="totals" role="status"></p><ul id="wall"></ul></main>
 <script>
 const words = {
   en: { queued: "queued", assigned: "assigned", started: "under way", over: "over", machines: "machines", job: "job", silent: "does not answer",

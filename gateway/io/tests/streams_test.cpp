@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <spdlog/logger.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -174,6 +175,48 @@ TEST_F(StreamsTest, WhoDoesNotReadTheFarewellIsClosedAllTheSame) {
     came = came || hub.streams() == 1;
     return came && hub.streams() == 0;
   }));
+}
+
+/// Takes half a millisecond for whatever it hears.
+class Laborious : public ByteSession {
+ public:
+  explicit Laborious(int* heard) : heard_(heard) {}
+  void on_bytes(LocalTime, std::span<const std::uint8_t>) override {
+    ++*heard_;
+    const LocalTime until = monotonic_now() + LocalTime{500us};
+    while (monotonic_now() < until) {
+    }
+  }
+  void on_time(LocalTime) override {}
+  LocalTime next_deadline() const override { return LocalTime::max(); }
+  std::span<const std::uint8_t> next_bytes() override { return {}; }
+  void on_bytes_sent(std::size_t) override {}
+  bool wants_bytes() const override { return true; }
+  bool ended() const override { return false; }
+  void on_closed(LocalTime, std::string_view) override {}
+
+ private:
+  int* heard_;
+};
+
+// A slow host makes fewer turns: the bound holds on any.
+TEST_F(StreamsTest, AFloodLeavesTheRestOfTheLoopsTimeToOthers) {
+  int heard = 0;
+  StreamHub hub(loop_, {.share = 0.2, .burst = 10ms});
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, ends.data()), 0);
+  ASSERT_TRUE(hub.add(std::make_unique<SocketStream>(ends[0]), std::make_unique<Laborious>(&heard)));
+  const LocalTime begin = monotonic_now();
+  LocalTime now = begin;
+  while (now < begin + LocalTime{400ms} || heard < 20) {
+    [[maybe_unused]] const ssize_t sent = ::send(ends[1], "x", 1, MSG_DONTWAIT);
+    hub.on_time(now);
+    loop_.wait(std::min(hub.next_deadline(), now + LocalTime{1ms}));
+    now = monotonic_now();
+  }
+  const double bound_s = 0.010 + 0.2 * to_seconds(now - begin) + 0.004;
+  EXPECT_LE(heard * 0.0005, bound_s) << heard << " in " << to_seconds(now - begin) << " s";
+  ::close(ends[1]);
 }
 
 TEST_F(StreamsTest, ASecretThatOthersMayReadOrGuessIsRefused) {

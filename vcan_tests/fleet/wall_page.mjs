@@ -1,0 +1,69 @@
+#!/usr/bin/env node
+// The fleet's wall in Chromium while a fleet works: three languages, dark and light, a telephone; axe-core finds nothing.
+//   wall_page.mjs BUILD [SCREENSHOTS]      Exit status 1: a claim does not hold; 77: skipped, and why
+import { spawn, spawnSync } from 'node:child_process';
+import fs from 'node:fs';
+import { createRequire } from 'node:module';
+import path from 'node:path';
+
+const [build, shots = path.join(process.argv[2], 'web/screenshots')] = process.argv.slice(2);
+const skip = (why) => { console.log(`fleet_wall_page: skipped: ${why}`); process.exit(77); };
+const chromium = ['/usr/bin/chromium', '/usr/bin/chromium-browser'].find((file) => fs.existsSync(file));
+if (!chromium) skip('Chromium is not installed (tools/setup web)');
+if (!fs.existsSync(path.join(build, 'web/complete'))) skip('the web page was not built: npm or its registry is missing');
+if (spawnSync('bash', ['-c', 'ls /usr/lib/postgresql/*/bin/postgres']).status !== 0) skip('no PostgreSQL on this computer (tools/setup fleet)');
+const require = createRequire(path.join(path.resolve(build), 'web/'));
+const playwright = require('playwright-core');
+const axe = fs.readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
+const kPatience = 200_000;
+const kHeadings = { en: 'machines', tr: 'makine', fa: 'ماشین' };
+fs.mkdirSync(shots, { recursive: true });
+
+const demo = spawn(path.join(build, 'bin/kinebus-fleet'), ['demo', '--machines', '6', '--jobs', '9', '--http', '127.0.0.1:0'], { stdio: ['ignore', 'pipe', 'inherit'] });
+const ended = new Promise((resolve) => demo.on('exit', resolve));
+const address = new Promise((resolve, reject) => {
+  let said = '';
+  demo.stdout.on('data', (more) => {
+    said += more;
+    const found = /^(http:\/\/\S+)$/m.exec(said);
+    if (found) resolve(found[1]);
+  });
+  ended.then(() => reject(new Error(`the demo did not begin: ${said}`)));
+});
+let browser, status = 0;
+try {
+  const url = await address;
+  browser = await playwright.chromium.launch({ executablePath: chromium, args: ['--no-sandbox'] });
+  for (const [language, word] of Object.entries(kHeadings)) {
+    for (const colorScheme of ['light', 'dark']) {
+      for (const width of [1440, 390]) {
+        const context = await browser.newContext({ viewport: { width, height: 800 }, colorScheme });
+        context.setDefaultTimeout(kPatience);
+        const page = await context.newPage();
+        const wrong = [];
+        page.on('pageerror', (error) => wrong.push(String(error)));
+        await page.goto(`${url}?lang=${language}`);
+        await page.locator('#wall li').nth(5).waitFor();
+        const what = `${language}, ${colorScheme}, ${width}`;
+        if (!(await page.locator('#totals').innerText()).includes(word)) throw new Error(`${what}: no "${word}"`);
+        if (await page.evaluate(() => document.documentElement.scrollWidth > innerWidth)) throw new Error(`${what}: wider than the window`);
+        await page.evaluate(axe);
+        const found = await page.evaluate(() => window.axe.run(document));
+        if (found.violations.length > 0)
+          throw new Error(`${what}: axe: ${JSON.stringify(found.violations.map((v) => [v.id, v.nodes.map((n) => [n.html, n.failureSummary])]))}`);
+        if (wrong.length > 0) throw new Error(`${what}: ${wrong}`);
+        await page.screenshot({ path: path.join(shots, `wall-${language}-${colorScheme}-${width}.png`) });
+        await context.close();
+      }
+    }
+  }
+  console.log('the wall in 3 languages, dark and light, on a desk and on a telephone; axe-core finds nothing');
+} catch (error) {
+  console.log(`FAILED: ${error.message}`);
+  status = 1;
+} finally {
+  await browser?.close();
+  demo.kill('SIGTERM');
+  await ended;
+}
+process.exit(status);
