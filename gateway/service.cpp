@@ -239,7 +239,10 @@ void Service::listen_http(const std::string& credentials) {
                             .pages = pages.empty() ? http::Pages() : must(read_pages(pages), "web page "),
                             .database = read_text(kept),
                             .keep_database = text_keeper(kept)});
-  must_be_empty(http_host_.listen(arguments_.http, credentials, *http_), "HTTP");
+  const std::string wrong = http_host_.listen(arguments_.http, credentials, *http_);
+  // A page of another program is no reason for a machine to stand.
+  if (http_host_.taken()) return spdlog::error("no web page and no slicers: {}", wrong);
+  must_be_empty(wrong, "HTTP");
   if (!pages.empty()) spdlog::info("web page from {}", pages.string());
   spdlog::info("{} port {}, API key in {}", http_host_.encrypted() ? "HTTPS" : "HTTP", http_host_.port(),
                file);

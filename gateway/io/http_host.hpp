@@ -22,6 +22,7 @@ class HttpHost : public DaemonPart {
   /// Empty: listening. `server` must outlive the host and its sessions.
   std::string listen(const std::string& address, const std::filesystem::path& credentials,
                      http::Server& server);
+  bool taken() const { return listener_.taken(); }  ///< why not: another program has the port
   int port() const { return listener_.port(); }
   bool encrypted() const { return tls_.has_value(); }
 

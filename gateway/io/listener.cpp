@@ -118,8 +118,10 @@ std::string Listener::listen_tcp(const std::string& address) {
   fd_ = ::socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   const int on = 1;
   if (fd_ >= 0) ::setsockopt(fd_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-  if (fd_ < 0 || ::bind(fd_, found->ai_addr, found->ai_addrlen) != 0 || ::listen(fd_, kBacklog) != 0)
+  if (fd_ < 0 || ::bind(fd_, found->ai_addr, found->ai_addrlen) != 0 || ::listen(fd_, kBacklog) != 0) {
+    taken_ = errno == EADDRINUSE;
     return address + ": cannot listen: " + std::strerror(errno);
+  }
   loop_.watch(fd_, EPOLLIN, [this](std::uint32_t) { accept_client(); });
   return {};
 }

@@ -24,6 +24,8 @@ class Listener {
   std::string listen_local(const std::string& path, const std::string& group);
   /// `address`: "0.0.0.0:7411", "[::1]:7411", ":7411" for all. Empty: listening.
   std::string listen_tcp(const std::string& address);
+  /// Why listen_tcp failed: another program has the port.
+  bool taken() const { return taken_; }
   /// The port in use (TCP).
   int port() const;
   /// Only programs of this computer can connect (TCP).
@@ -34,6 +36,7 @@ class Listener {
   EventLoop& loop_;
   OnClient on_client_;
   int fd_ = -1;
+  bool taken_ = false;
   std::string path_;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <ctime>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -14,9 +15,15 @@
 
 namespace kinebus {
 namespace {
-// A turn costs no more than so many times what it may use: a host that lets the loop wait is no client's
-// doing.
-constexpr int kMostTurnsPaid = 4;
+/// However much was used: a stop is heard soon all the same.
+constexpr LocalTime kMostRest = std::chrono::milliseconds{20};
+
+/// What the loop has had of the processor: while the host let it wait no client used it.
+LocalTime thread_time() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return std::chrono::seconds{time.tv_sec} + std::chrono::nanoseconds{time.tv_nsec};
+}
 
 void set_interest(int epoll, int how, int fd, std::uint32_t events, void* who) {
   epoll_event event{};
@@ -74,7 +81,10 @@ void StreamHub::close(Pair& pair, const char* why) {
 /// the loop's.
 bool StreamHub::time_left() {
   const LocalTime now = monotonic_now();
-  if (work_until_ == LocalTime::max()) work_until_ = now + options_.work_per_turn;
+  if (work_until_ == LocalTime::max()) {
+    work_until_ = now + options_.work_per_turn;
+    began_ = thread_time();
+  }
   return now < work_until_;
 }
 
@@ -134,19 +144,17 @@ void StreamHub::send(Pair& pair) {
 
 /// What this turn has used, and what has come since the last one; who has used up all rests.
 void StreamHub::pay(LocalTime now) {
-  const auto earned = [&](LocalTime time) {
+  const auto share_of = [&](LocalTime time) {
     return LocalTime{static_cast<std::int64_t>(options_.share * static_cast<double>(time.count()))};
   };
-  credit_ = std::min(options_.burst, credit_ + earned(now - paid_));
+  credit_ = std::min(options_.burst, credit_ + share_of(now - paid_));
   paid_ = now;
-  if (work_until_ != LocalTime::max()) {
-    const LocalTime used = monotonic_now() - (work_until_ - options_.work_per_turn);
-    credit_ -= std::min(used, kMostTurnsPaid * options_.work_per_turn);
-  }
+  if (work_until_ != LocalTime::max())
+    credit_ = std::max(-options_.burst, credit_ - (thread_time() - began_));
   work_until_ = LocalTime::max();
   if (credit_ >= LocalTime{0}) return;
-  rest_until_ =
-      now + LocalTime{static_cast<std::int64_t>(static_cast<double>(-credit_.count()) / options_.share)};
+  const LocalTime rest{static_cast<std::int64_t>(static_cast<double>(-credit_.count()) / options_.share)};
+  rest_until_ = now + std::min(rest, kMostRest);
   loop_.change(epoll_, 0);
 }
 

@@ -63,6 +63,7 @@ class StreamHub : public DaemonPart {
   std::size_t first_ = 0;                    ///< who is served first in the next turn
   LocalTime work_until_ = LocalTime::max();  ///< of this turn; max: it has not begun
   LocalTime credit_, paid_{0};               ///< what streams may use now; when that was counted
+  LocalTime began_{0};                       ///< the loop's processor time when the turn's work began
   LocalTime rest_until_{0};
 };
 
