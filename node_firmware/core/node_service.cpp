@@ -97,6 +97,11 @@ void Node::follow_scale(int axis) {
 }
 
 void Node::serve_switches() {
+  // Who sends no TPDO1 keeps nothing for it: 2133h is read as it is.
+  const auto show = [&] {
+    if (!nmt_.allows_pdo()) inputs_.told();
+    inputs_.show(now_);
+  };
   while (const auto event = inputs_.next_event(now_)) {
     const auto bus_ns = static_cast<std::uint32_t>(path_.clock().to_bus(event->at).count());
     for (std::size_t i = 0; i < axes_.size(); ++i) {
@@ -105,9 +110,9 @@ void Node::serve_switches() {
       if (event->active) axes_[i].set_probe(event->latched[i]);
       probes_[i].on_edge(event->active, whole_counts(event->latched[i]), bus_ns);
     }
-    inputs_.show(now_);
+    show();
   }
-  inputs_.show(now_);
+  show();
 }
 
 // Levels, not edges: an input that becomes an E-stop input while it is active stops too.
