@@ -6,6 +6,7 @@ namespace kinebus {
 
 void SwitchInputs::configure(int input, const Config& config) {
   inputs_[static_cast<std::size_t>(input)].config = config;
+  if (shown_ != active_inputs()) changed_ = true;
 }
 
 void SwitchInputs::on_level(LocalTime at, int input, bool level, const LatchedPositions& latched,
@@ -31,6 +32,7 @@ std::optional<SwitchEvent> SwitchInputs::next_event(LocalTime now) {
   if (first == nullptr) return std::nullopt;
   first->pending = false;
   first->level = !first->level;
+  changed_ = true;
   return SwitchEvent{static_cast<int>(first - inputs_.data()),
                      first->config.function,
                      first->active(),
@@ -43,8 +45,7 @@ LocalTime SwitchInputs::next_deadline() const {
   LocalTime deadline = LocalTime::max();
   for (const Input& in : inputs_)
     if (in.pending) deadline = std::min(deadline, in.since + in.config.debounce);
-  if (shown_ != active_inputs())
-    deadline = std::min(deadline, shown_at_ + (untold_ != 0 ? kShown : LocalTime{0}));
+  if (changed_) deadline = std::min(deadline, shown_at_ + (untold_ != 0 ? kShown : LocalTime{0}));
   return deadline;
 }
 
@@ -56,11 +57,14 @@ std::uint8_t SwitchInputs::active_inputs() const {
 }
 
 void SwitchInputs::show(LocalTime now) {
+  if (!changed_) return;
   if (untold_ != 0 && now - shown_at_ >= kShown) untold_ = 0;
-  const unsigned changed = (active_inputs() ^ shown_) & ~static_cast<unsigned>(untold_);
-  if (changed == 0) return;
-  shown_ = static_cast<std::uint8_t>(shown_ ^ changed);
-  untold_ = static_cast<std::uint8_t>(untold_ | changed);
+  const unsigned differs = active_inputs() ^ shown_;
+  const unsigned shows = differs & ~static_cast<unsigned>(untold_);
+  changed_ = differs != shows;
+  if (shows == 0) return;
+  shown_ = static_cast<std::uint8_t>(shown_ ^ shows);
+  untold_ = static_cast<std::uint8_t>(untold_ | shows);
   shown_at_ = now;
 }
 

@@ -72,6 +72,7 @@ class SwitchInputs {
   std::array<Input, kSwitchInputs> inputs_{};
   std::uint32_t glitches_ = 0;
   std::uint8_t shown_ = 0, untold_ = 0;  // bit 0: input 1
+  bool changed_ = false;                 // what is shown may not be what is
   LocalTime shown_at_{0};
 };
 
