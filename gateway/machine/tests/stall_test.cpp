@@ -64,6 +64,29 @@ TEST_F(Stall, ThatBeginsAgainAndAgainStillEndsTheJob) {
   ASSERT_TRUE(rig.run_until([&] { return done(rig); }, 120s)) << rig.story();
 }
 
+TEST_F(Stall, ThatComesASixthTimeInAJobWaitsForAPerson) {
+  MachineRig rig(that_goes_on());
+  std::string job;
+  for (int i = 0; i < 20; ++i) job += kJob;
+  ASSERT_TRUE(rig.make_ready());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Run{std::make_unique<StringSource>(job), "test"}));
+  const auto runs = [&] { return rig.gateway->state() == MachineState::kRunning; };
+  for (int i = 0; i < 6; ++i) {
+    ASSERT_TRUE(rig.run_until(runs, 30s)) << i << rig.story();
+    rig.run_for(2s);
+    rig.stall(900ms);
+    rig.run_for(2s);
+  }
+  rig.run_for(20s);
+  EXPECT_FALSE(done(rig));
+  EXPECT_EQ(rig.gateway->state(), MachineState::kStopped) << rig.story();
+  EXPECT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(
+      rig.run_until([&] { return rig.gateway->may(command::kind<command::Resume>).has_value(); }, 10s));
+  ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
+  ASSERT_TRUE(rig.run_until(runs, 30s)) << rig.story();
+}
+
 TEST_F(Stall, NothingElseThatIsWrongIsCleared) {
   MachineRig rig(that_goes_on());
   ASSERT_TRUE(begin(rig)) << rig.story();

@@ -51,8 +51,12 @@ TEST_F(Motors, TheAmplifiersZeroIsTakenAtStart) {
 }
 
 TEST_F(Motors, AnAmplifierThatIsFarOffOrNoConversionsAreNoStart) {
-  fake::Stage::steps = {{{2048, 2048}, {2048, 2200}}};
-  EXPECT_FALSE(motors.start());
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    for (std::size_t phase = 0; phase < 2; ++phase) {
+      fake::Stage::steps = {{{2048, 2048}, {2048, 2048}}};
+      fake::Stage::steps[axis][phase] = 2200;
+      EXPECT_FALSE(motors.start()) << axis << " " << phase;
+    }
   fake::Stage::control = nullptr;
   EXPECT_FALSE(motors.start());
 }

@@ -223,18 +223,20 @@ TEST(AxisControl, ABrokenTemperatureSensorIsToldAndDropsNothing) {
   }
 }
 
-TEST(AxisControl, BlockedMotorIsAFollowingError) {
-  AxisConfig config = Bench::standard();
-  config.encoder = EncoderMode::kWatch;
-  Bench bench(config);
-  bench.encoder_present = true;
-  bench.control.set_power(true);
-  bench.run(0.3);
-  bench.motor.blocked = true;
-  bench.velocity = 50'000;
-  bench.run(0.05);
-  EXPECT_EQ(bench.control.troubles(), Surroundings::kFollowing);
-  EXPECT_GT(bench.control.following_error(), 1024);
+TEST(AxisControl, BlockedMotorIsAFollowingErrorBothWays) {
+  for (const int way : {1, -1}) {
+    AxisConfig config = Bench::standard();
+    config.encoder = EncoderMode::kWatch;
+    Bench bench(config);
+    bench.encoder_present = true;
+    bench.control.set_power(true);
+    bench.run(0.3);
+    bench.motor.blocked = true;
+    bench.velocity = way * 50'000;
+    bench.run(0.05);
+    EXPECT_EQ(bench.control.troubles(), Surroundings::kFollowing) << way;
+    EXPECT_GT(way * bench.control.following_error(), 1024) << way;
+  }
 }
 
 TEST(AxisControl, LoadIsTakenUpWithTheEncoder) {
