@@ -1,4 +1,5 @@
-// What tools/mutations writes into mutated copies of the sources: see slips.py. Included by no source of the repository.
+// What tools/mutations writes into mutated copies of the sources: see slips.py. Included by no source of the
+// repository.
 #pragma once
 
 #include <cstdio>
@@ -34,10 +35,10 @@ constexpr bool made(int number) {
   return number == chosen;
 }
 
-#define KINEBUS_SLIP_OF(name, right, wrong)                         \
-  template <class A, class B>                                       \
-  constexpr auto name(int number, const A& a, const B& b) {         \
-    return made(number) ? (a wrong b) : (a right b);                \
+#define KINEBUS_SLIP_OF(name, right, wrong)                 \
+  template <class A, class B>                               \
+  constexpr auto name(int number, const A& a, const B& b) { \
+    return made(number) ? (a wrong b) : (a right b);        \
   }
 KINEBUS_SLIP_OF(lt, <, <=)
 KINEBUS_SLIP_OF(le, <=, <)
