@@ -98,6 +98,22 @@ TEST_F(Stall, NothingElseThatIsWrongIsCleared) {
   EXPECT_EQ(rig.gateway->state(), MachineState::kStopped) << rig.story();
 }
 
+TEST_F(Stall, AnEmergencyStopSoonAfterOneIsNotCleared) {
+  MachineDescription description = that_goes_on();
+  description.nodes[2].inputs[6] = {InputFunction::kEmergencyStop, 0};
+  MachineRig rig(description);
+  ASSERT_TRUE(begin(rig)) << rig.story();
+  rig.stall(20ms);
+  rig.run_for(300ms);
+  ASSERT_EQ(rig.gateway->state(), MachineState::kRunning) << "so short a one is ridden out";
+  rig.nodes.set_input(2, rig.now, 7, true);
+  rig.run_for(100ms);
+  rig.nodes.set_input(2, rig.now, 7, false);
+  rig.run_for(20s);
+  EXPECT_FALSE(done(rig));
+  EXPECT_EQ(rig.gateway->state(), MachineState::kStopped) << rig.story();
+}
+
 TEST_F(Stall, APersonWhoClearsHasTheMachine) {
   MachineRig rig(that_goes_on());
   ASSERT_TRUE(begin(rig)) << rig.story();
