@@ -27,6 +27,7 @@ Role role_for(const joblink::ClientMessage& message);
 struct Visitor {
   std::string name{};  ///< empty: the holder of the gateway's key, or a client of a trusted network
   Role role = Role::kNobody;
+  bool has_key = false;  ///< else it may what its network may
 };
 struct User {
   Visitor visitor{};
@@ -55,8 +56,12 @@ class Users {
   const User* by_key(std::string_view key) const;
   /// Of who comes from `address` ("10.0.0.7", "fe80::1"; anything else is trusted by nobody) without a key.
   Role role_at(std::string_view address) const;
+  /// `visitor`, who came in from `address` by these, would come in as the very same by `fresh`; nobody would.
+  bool same_by(const Users& fresh, const Visitor& visitor, std::string_view address) const;
 
  private:
+  const User* by_name(std::string_view name) const;
+
   std::vector<User> users_;
   std::vector<TrustedNetwork> networks_;
 };
