@@ -47,12 +47,6 @@ bool is_in(const std::array<std::uint8_t, 16>& address, const std::array<std::ui
   return ((address[bits / 8] ^ network[bits / 8]) & mask & 0xFFU) == 0;
 }
 
-std::optional<Role> role_of(std::string_view word) {
-  for (const Role role : {Role::kWatch, Role::kOperate, Role::kAdminister})
-    if (word == word_of(role)) return role;
-  return std::nullopt;
-}
-
 /// "line 3: "
 std::string place(const toml::node& node) {
   return "line " + std::to_string(node.source().begin.line) + ": ";
@@ -117,7 +111,7 @@ std::string add_network(const toml::table& table, std::vector<TrustedNetwork>& n
   if (bits < (address->is_v4 ? kFewestBits4 : kFewestBits6))
     return "'" + text + "' is too wide to be trusted (/8 or narrower)";
   if (*role == Role::kAdminister) return "who administers shows a key (watch, operate)";
-  networks.push_back({address->bytes, bits + (address->is_v4 ? kMappedBits : 0U), *role});
+  networks.push_back({text, address->bytes, bits + (address->is_v4 ? kMappedBits : 0U), *role});
   return {};
 }
 
@@ -135,6 +129,12 @@ const char* word_of(Role role) {
       break;
   }
   return "nobody";
+}
+
+std::optional<Role> role_of(std::string_view word) {
+  for (const Role role : {Role::kWatch, Role::kOperate, Role::kAdminister})
+    if (word == word_of(role)) return role;
+  return std::nullopt;
 }
 
 Role role_for(const joblink::ClientMessage& message) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,8 @@ enum class Role : std::uint8_t {
 };
 /// "watch"
 const char* word_of(Role role);
+/// nullopt: there is no such word.
+std::optional<Role> role_of(std::string_view word);
 /// What a request needs.
 Role role_for(const joblink::ClientMessage& message);
 
@@ -35,6 +38,7 @@ struct User {
 };
 
 struct TrustedNetwork {
+  std::string text{};                      ///< "192.168.1.0/24"
   std::array<std::uint8_t, 16> address{};  ///< of IPv6, or mapped into it
   unsigned bits = 0;
   Role role = Role::kNobody;
@@ -52,6 +56,7 @@ class Users {
   static Result<Users, std::string> read(std::string key, std::string_view toml);
 
   const std::vector<User>& all() const { return users_; }
+  const std::vector<TrustedNetwork>& networks() const { return networks_; }
   /// Who has this key, which takes as long for each; nullptr: nobody.
   const User* by_key(std::string_view key) const;
   /// Of who comes from `address` ("10.0.0.7", "fe80::1"; anything else is trusted by nobody) without a key.
