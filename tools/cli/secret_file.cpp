@@ -44,7 +44,7 @@ bool write_all(int fd, std::string_view text) {
 
 }  // namespace
 
-SecretFile::SecretFile(std::filesystem::path file) : file_(std::filesystem::absolute(file)) {
+SecretFile::SecretFile(const std::filesystem::path& file) : file_(std::filesystem::absolute(file)) {
   std::error_code none;
   // What a link leads to is changed, not the link.
   if (const auto real = std::filesystem::canonical(file_, none); !none) file_ = real;

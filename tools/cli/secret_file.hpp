@@ -12,7 +12,7 @@ namespace kinebus {
 /// Holds a folder for itself among the programs that use this class: two changes do not undo each other.
 class SecretFile {
  public:
-  explicit SecretFile(std::filesystem::path file);
+  explicit SecretFile(const std::filesystem::path& file);
   ~SecretFile();
   SecretFile(const SecretFile&) = delete;
   SecretFile& operator=(const SecretFile&) = delete;
