@@ -17,9 +17,12 @@
 
 namespace {
 
-volatile std::sig_atomic_t quit = 0;
+volatile std::sig_atomic_t quit = 0, reread = 0;
 void on_signal(int) {
   quit = 1;
+}
+void on_hang_up(int) {
+  reread = 1;
 }
 
 int run(int argc, char** argv) {
@@ -34,12 +37,13 @@ int run(int argc, char** argv) {
   // From here on: who asks it to end while it begins has it begun and ended.
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  std::signal(SIGHUP, on_hang_up);
   std::signal(SIGPIPE, SIG_IGN);
   bool anew = false;
   try {
     kinebus::make_machine_file(arguments);
     kinebus::Service service(arguments);
-    service.run(&quit);
+    service.run(&quit, &reread);
     anew = service.begins_anew() && quit == 0;
   } catch (const std::exception& error) {
     spdlog::critical("{}", error.what());

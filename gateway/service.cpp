@@ -230,15 +230,18 @@ void Service::listen_http(const std::string& credentials) {
   const std::filesystem::path pages =
       arguments_.web.empty() ? installed_pages() : std::filesystem::path(arguments_.web);
   const std::filesystem::path kept = beside(jobs_folder_, "web-pages.json");
-  const std::string users =
-      arguments_.http_users.empty() ? credentials + "/http-users.toml" : arguments_.http_users;
+  const UsersFile::Files users{
+      .key = file,
+      .users = arguments_.http_users.empty() ? credentials + "/http-users.toml" : arguments_.http_users,
+      .must_be_there = !arguments_.http_users.empty()};
   http_.emplace(
       server_, *store_, worker_, control_,
-      http::Server::Options{.users = must(http_users(file, users, !arguments_.http_users.empty())),
+      http::Server::Options{.users = must(UsersFile::read(users)),
                             .names = host_names(arguments_.http_names),
                             .pages = pages.empty() ? http::Pages() : must(read_pages(pages), "web page "),
                             .database = read_text(kept),
                             .keep_database = text_keeper(kept)});
+  users_.emplace(loop_, worker_, users);
   const std::string wrong = http_host_.listen(arguments_.http, credentials, *http_);
   // A page of another program is no reason for a machine to stand.
   if (http_host_.taken()) return spdlog::error("no web page and no slicers: {}", wrong);
@@ -256,7 +259,7 @@ void Service::listen_http(const std::string& credentials) {
                                         .version = KINEBUS_VERSION});
 }
 
-void Service::run(const volatile std::sig_atomic_t* quit) {
+void Service::run(const volatile std::sig_atomic_t* quit, volatile std::sig_atomic_t* reread) {
   RecordedBus recorded(std::move(bus_), recorder_);
   const ServiceManager manager;
   manager.tell("READY=1");
@@ -268,6 +271,10 @@ void Service::run(const volatile std::sig_atomic_t* quit) {
   daemon.add(serial_);
   if (!arguments_.usb.empty()) daemon.add(usb_);
   daemon.add(journal_);
+  if (users_) {
+    users_->keep(*http_, reread);
+    daemon.add(*users_);
+  }
   keep_heap(kHeapBytes);
   if (!arguments_.no_realtime)
     if (const std::string missing = become_realtime(arguments_.realtime_priority); !missing.empty())

@@ -22,6 +22,7 @@
 #include "gateway/io/stream_hub.hpp"
 #include "gateway/io/usb/function_fs.hpp"
 #include "gateway/io/usb/serial_ports.hpp"
+#include "gateway/io/users_file.hpp"
 #include "gateway/io/worker_thread.hpp"
 #include "gateway/jobs/store/job_store.hpp"
 #include "gateway/machine/gateway.hpp"
@@ -35,8 +36,8 @@ class Service {
  public:
   /// What cannot be opened is thrown as words for the user (std::runtime_error).
   explicit Service(const Arguments& arguments);
-  /// Until *quit, then until the machine rests.
-  void run(const volatile std::sig_atomic_t* quit);
+  /// Until *quit, then until the machine rests. *reread: what may change meanwhile is read anew.
+  void run(const volatile std::sig_atomic_t* quit, volatile std::sig_atomic_t* reread);
   /// A client wants it to begin anew, with the machine file as it is now.
   bool begins_anew() const { return begins_anew_; }
 
@@ -63,6 +64,7 @@ class Service {
   Control control_;
   JobLinkServer server_;
   std::optional<http::Server> http_;
+  std::optional<UsersFile> users_;
   std::optional<Announcer> announcer_;
   StreamHub hub_;
   JobLinkHost host_;

@@ -173,12 +173,26 @@ void add_agent(CLI::App& app, const Where& where) {
 }
 
 void add_serve(CLI::App& app, const Where& where) {
-  auto* serve = app.add_subcommand("serve", "Show the wall of machines to browsers of this computer");
+  auto* serve = app.add_subcommand(
+      "serve",
+      "Show the wall of machines to browsers of this computer, and its numbers to Prometheus (/metrics)");
   auto address = std::make_shared<std::string>("127.0.0.1:7450");
   serve->add_option("--http", *address, "ADDRESS:PORT (default: 127.0.0.1:7450)");
+  auto broker = std::make_shared<std::string>();
+  serve->add_option(
+      "--broker", *broker,
+      "Tell at /metrics, too, whether this broker of MQTT (HOST[:PORT]) can be reached (default: none)");
   serve->callback([=] {
+    Broker::Options options;
+    if (!broker->empty())
+      if (const std::string wrong = read_broker_address(*broker, options); !wrong.empty())
+        throw std::runtime_error("--broker: " + wrong);
     quit_on_signals();
-    serve_wall(*where, *address, asked_to_end);
+    serve_wall({.database = *where,
+                .address = *address,
+                .broker_host = broker->empty() ? std::string() : options.host,
+                .broker_port = options.port},
+               asked_to_end);
   });
 }
 

@@ -125,6 +125,24 @@ Queue::Totals Queue::totals() {
   return totals;
 }
 
+Queue::Numbers Queue::numbers() {
+  // A job that was cancelled before it began has left its gateway (note_not_run).
+  const Rows rows = database_.run(
+      "SELECT state, gateway <> '', count(*), extract(epoch FROM now() - min(added))::float8 FROM jobs"
+      " GROUP BY 1, 2");
+  Numbers numbers;
+  for (int row = 0; row < rows.count(); ++row) {
+    const std::string state = rows.text(row, 0);
+    const std::int64_t count = rows.integer(row, 2);
+    numbers.jobs[state] += count;
+    if (state == "queued")
+      numbers.oldest_waiting_s = rows.real(row, 3);
+    else if (state != "assigned" && state != "refused" && rows.truth(row, 1))
+      numbers.begun += count;
+  }
+  return numbers;
+}
+
 std::optional<QueuedJob> Queue::job_of(const std::string& gateway) {
   const Rows rows = database_.run(
       "SELECT id, name, file, text_hash, attempt, after_run, state, cancel FROM jobs"

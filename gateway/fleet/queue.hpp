@@ -3,6 +3,7 @@
 // Every change names the job, the gateway and the attempt that it is about: who comes late changes nothing.
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,6 +38,12 @@ class Queue {
   struct Totals {
     std::int64_t queued = 0, assigned = 0, started = 0, over = 0;
   };
+  /// What a monitor asks for: of all jobs, and none for itself.
+  struct Numbers {
+    std::map<std::string, std::int64_t> jobs{};  ///< by state, the ones that there are
+    std::int64_t begun = 0;                      ///< jobs that a machine has begun
+    double oldest_waiting_s = 0;                 ///< since it was added; 0: none waits
+  };
 
   explicit Queue(std::string where) : database_(std::move(where)) {}
 
@@ -54,6 +61,7 @@ class Queue {
   std::vector<Listed> jobs(bool over_too, int most);
   std::vector<Seen> machines();
   Totals totals();
+  Numbers numbers();
 
   // For agents.
   /// Job of this gateway that is not over.

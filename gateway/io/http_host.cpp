@@ -4,19 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "gateway/io/job_link_host.hpp"
 #include "gateway/io/socket_stream.hpp"
 
 namespace kinebus {
-namespace {
-/// 32 characters: OctoPrint's clients take 32 to 43.
-constexpr std::size_t kHttpKeyBytes = 16;
-}  // namespace
-
 HttpHost::HttpHost(EventLoop& loop, StreamHub& hub)
     : loop_(loop), hub_(hub), listener_(loop, [this](int fd, std::string who) {
         std::string peer = peer_of(fd);
@@ -49,23 +42,6 @@ void HttpHost::on_time(LocalTime now) {
 
 LocalTime HttpHost::next_deadline() const {
   return server_ != nullptr ? server_->next_deadline() : LocalTime::max();
-}
-
-Result<http::Users, std::string> http_users(const std::filesystem::path& key_file,
-                                            const std::filesystem::path& users_file, bool must_be_there) {
-  auto key = token_of(key_file, kHttpKeyBytes);
-  if (!key) return Error<std::string>(key.error());
-  std::error_code unreadable;
-  if (!must_be_there && !std::filesystem::exists(users_file, unreadable)) return http::Users(std::move(*key));
-  if (std::string loose = loose_secret(users_file); !loose.empty())
-    return Error<std::string>(std::move(loose));
-  std::ifstream in(users_file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) return Error<std::string>(users_file.string() + " cannot be read");
-  auto users = http::Users::read(std::move(*key), text.str());
-  if (!users) return Error<std::string>(users_file.string() + ", " + users.error());
-  return users;
 }
 
 std::vector<std::string> host_names(std::vector<std::string> more) {

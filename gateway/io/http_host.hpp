@@ -38,11 +38,6 @@ class HttpHost : public DaemonPart {
   Listener listener_;
 };
 
-/// Who may ask: the holder of the key in `key_file` (made where it is not there), and those of `users_file`
-/// (Users::read) where it is there, or must be.
-Result<http::Users, std::string> http_users(const std::filesystem::path& key_file,
-                                            const std::filesystem::path& users_file, bool must_be_there);
-
 /// Names by which others call this computer: its own, the same with ".local", and `more`.
 std::vector<std::string> host_names(std::vector<std::string> more);
 

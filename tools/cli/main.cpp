@@ -21,6 +21,7 @@
 #include "tools/cli/plan_command.hpp"
 #include "tools/cli/shell_words.hpp"
 #include "tools/cli/simulate_command.hpp"
+#include "tools/cli/users_command.hpp"
 
 namespace {
 
@@ -54,6 +55,7 @@ int run(int argc, char** argv) {
   kinebus::add_simulate_command(app, options->json, exit_code);
   kinebus::add_explain_command(app, exit_code);
   kinebus::add_gcode_command(app, exit_code);
+  kinebus::add_users_command(app, options->json);
   kinebus::add_shell_words(app, KINEBUS_VERSION);
   try {
     app.parse(argc, argv);

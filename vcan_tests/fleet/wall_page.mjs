@@ -16,6 +16,11 @@ const require = createRequire(path.join(path.resolve(build), 'web/'));
 const playwright = require('playwright-core');
 const axe = fs.readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
 const kPatience = 200_000;
+// The states in the gateway's order, by its own words and by those of a machine's page: the wall says the same.
+const sources = path.join(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), '../../gateway');
+const states = [...fs.readFileSync(path.join(sources, 'status/state.cpp'), 'utf8').matchAll(/\{S::k\w+, phrase\("([^"]+)"\)/g)].map((found) => found[1]);
+const said = [...fs.readFileSync(path.join(sources, 'web/page/words.js'), 'utf8').matchAll(/STATE_\w+: '([^']*)'/g)].map((found) => found[1]);
+const kSaid = { en: states, tr: said.slice(states.length, 2 * states.length), fa: said.slice(2 * states.length) };
 const kHeadings = { en: 'machines', tr: 'makine', fa: 'ماشین' };
 fs.mkdirSync(shots, { recursive: true });
 
@@ -52,12 +57,19 @@ try {
         if (found.violations.length > 0)
           throw new Error(`${what}: axe: ${JSON.stringify(found.violations.map((v) => [v.id, v.nodes.map((n) => [n.html, n.failureSummary])]))}`);
         if (wrong.length > 0) throw new Error(`${what}: ${wrong}`);
+        if (states.length !== 14 || said.length !== 42) throw new Error(`${states.length} states, said in ${said.length} words`);
+        const machines = states.map((state, i) => ({ name: `m${10 + i}`, state, answers: true, words: '', job: 0, progress: 0, seen_s: 1 }));
+        const totals = { queued: 0, assigned: 0, started: 0, over: 0 };
         await page.screenshot({ path: path.join(shots, `wall-${language}-${colorScheme}-${width}.png`) });
+        await page.route('**/fleet.json', (route) => route.fulfill({ json: { totals, machines } }));
+        await page.waitForFunction((name) => document.querySelector('#wall li:last-child b')?.textContent === name, machines.at(-1).name);
+        const shown = await page.locator('#wall li span').allInnerTexts();
+        if (shown.join() !== kSaid[language].join()) throw new Error(`${what}: states are "${shown}", expected "${kSaid[language]}"`);
         await context.close();
       }
     }
   }
-  console.log('the wall in 3 languages, dark and light, on a desk and on a telephone; axe-core finds nothing');
+  console.log('the wall in 3 languages, dark and light, on a desk and on a telephone; every state in its words; axe-core finds nothing');
 } catch (error) {
   console.log(`FAILED: ${error.message}`);
   status = 1;

@@ -154,7 +154,7 @@ void run_demo(const DemoOptions& options, const std::atomic<bool>& quit) {
   std::atomic<bool> over{false};
   std::thread serving([&] { run_agent(agent, over); });
   try {
-    serve_wall(agent.database, options.http, quit);
+    serve_wall({.database = agent.database, .address = options.http}, quit);
   } catch (...) {
     over = true;
     serving.join();

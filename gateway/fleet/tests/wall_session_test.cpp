@@ -32,6 +32,19 @@ TEST(Wall, ShowsPageAndMachinesOnOneConnection) {
   EXPECT_FALSE(ended);
 }
 
+TEST(Wall, TellsPrometheusWhatWasSetForIt) {
+  WallText text;
+  text.set_metrics("kinebus_fleet_database_up 1\n");
+  WallSession session(text);
+  const std::string request = "GET /metrics HTTP/1.1\r\nHost: 127.0.0.1:7450\r\n\r\n";
+  session.on_bytes(LocalTime{0},
+                   std::span(reinterpret_cast<const std::uint8_t*>(request.data()), request.size()));
+  const auto bytes = session.next_bytes();
+  const std::string out(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  EXPECT_NE(out.find("Content-Type: text/plain; version=0.0.4"), std::string::npos) << out;
+  EXPECT_TRUE(out.ends_with("\r\n\r\nkinebus_fleet_database_up 1\n")) << out;
+}
+
 TEST(Wall, RefusesWhatIsNotItsOwn) {
   const struct {
     const char *request, *answer;

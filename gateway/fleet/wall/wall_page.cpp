@@ -24,9 +24,19 @@ const words = {
   en: { queued: "queued", assigned: "assigned", started: "under way", over: "over", machines: "machines", job: "job", silent: "does not answer",
         stale: "its agent is silent", lost: "no answer; what is shown is old", progress: "progress of" },
   tr: { queued: "sırada", assigned: "atandı", started: "sürüyor", over: "bitti", machines: "makine", job: "iş", silent: "yanıt vermiyor",
-        stale: "aracısı sessiz", lost: "yanıt yok; görünen eski", progress: "ilerleme:" },
+        stale: "aracısı sessiz", lost: "yanıt yok; görünen eski", progress: "ilerleme:",
+        states: {
+          "off": "kapalı", "bring-up": "açılıyor", "not homed": "referans yok", "homing": "referansa gidiyor", "ready": "hazır",
+          "moving": "hareket ediyor", "checking the job": "iş denetleniyor", "running": "çalışıyor", "holding": "duraklatılıyor", "held": "duraklatıldı",
+          "cancelling": "iptal ediliyor", "stopping": "duruyor", "stopped": "durduruldu", "alarm": "alarm" } },
   fa: { queued: "در صف", assigned: "واگذار شده", started: "در جریان", over: "پایان یافته", machines: "ماشین", job: "کار", silent: "پاسخ نمی‌دهد",
-        stale: "کارگزارش خاموش است", lost: "پاسخی نیست؛ آنچه دیده می‌شود کهنه است", progress: "پیشرفت" } };
+        stale: "کارگزارش خاموش است", lost: "پاسخی نیست؛ آنچه دیده می‌شود کهنه است", progress: "پیشرفت",
+        states: {
+          "off": "خاموش", "bring-up": "در حال راه‌اندازی", "not homed": "بدون مبدأ", "homing": "رفتن به مبدأ", "ready": "آماده",
+          "moving": "در حرکت", "checking the job": "بررسی کار", "running": "در حال اجرا", "holding": "در حال مکث", "held": "مکث",
+          "cancelling": "در حال لغو", "stopping": "در حال توقف", "stopped": "متوقف", "alarm": "هشدار" } } };
+// What the fleet calls a state, by the words of a machine's own page (gateway/web/page/words.js).
+const state_words = (state) => (say.states || {})[state] || state;
 const language = (new URLSearchParams(location.search).get("lang") || navigator.language).slice(0, 2);
 const say = words[language] || words.en;
 document.documentElement.lang = words[language] ? language : "en";
@@ -50,7 +60,7 @@ function show(fleet) {
   for (const m of fleet.machines || []) {
     const x = tile(m.name), stale = m.seen_s > 15;
     seen.add(m.name);
-    x.state.textContent = stale ? say.stale : m.answers ? m.state : say.silent;
+    x.state.textContent = stale ? say.stale : m.answers ? state_words(m.state) : say.silent;
     x.more.textContent = m.job ? `${say.job} ${m.job}` : [m.kind, m.material, m.nozzle_mm || ""].filter(Boolean).join(" · ");
     x.li.title = m.words;
     x.li.className = stale || !m.answers || /alarm|stop/.test(m.state) ? "wrong" : m.job ? "works" : m.state === "ready" ? "ready" : "";

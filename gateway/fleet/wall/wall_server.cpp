@@ -5,11 +5,14 @@
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <utility>
 
 #include "gateway/fleet/queue.hpp"
+#include "gateway/fleet/wall/broker_probe.hpp"
+#include "gateway/fleet/wall/fleet_metrics.hpp"
 #include "gateway/fleet/wall/wall_session.hpp"
 #include "gateway/io/listener.hpp"
 #include "gateway/io/socket_stream.hpp"
@@ -20,6 +23,7 @@ namespace {
 
 using nlohmann::json;
 constexpr LocalTime kPeriod = std::chrono::seconds{1};
+constexpr int kLooksAMetric = 5;
 constexpr LocalTime kTurn = std::chrono::milliseconds{200};
 
 json to_json(const Queue::Seen& seen) {
@@ -34,6 +38,21 @@ json to_json(const Queue::Seen& seen) {
           {"job", view.job},
           {"progress", view.progress},
           {"seen_s", seen.seen_s}};
+}
+
+std::string look_for_metrics(Queue& queue, std::optional<bool> broker) {
+  FleetNumbers numbers{
+      .looked_unix_s =
+          std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count(),
+      .broker = broker};
+  try {
+    numbers.jobs = queue.numbers();
+    numbers.machines = queue.machines();
+    numbers.database = true;
+  } catch (const DatabaseError&) {
+    // That is what kinebus_fleet_database_up says.
+  }
+  return fleet_metrics(numbers);
 }
 
 std::string look(Queue& queue) {
@@ -54,7 +73,8 @@ std::string look(Queue& queue) {
 
 }  // namespace
 
-void serve_wall(const std::string& database, const std::string& address, const std::atomic<bool>& quit) {
+void serve_wall(const WallOptions& options, const std::atomic<bool>& quit) {
+  const std::string& address = options.address;
   WallText text;
   EventLoop loop;
   StreamHub hub(loop);
@@ -68,10 +88,12 @@ void serve_wall(const std::string& database, const std::string& address, const s
                              "by ssh, or by a server in front that speaks TLS and asks who they are)");
   fmt::print("http://127.0.0.1:{}/\n", listener.port());
   std::fflush(stdout);
+  const BrokerProbe broker(options.broker_host, options.broker_port);
   std::thread asker([&] {
-    Queue queue(database);
-    while (!quit) {
+    Queue queue(options.database);
+    for (int looks = 0; !quit; ++looks) {
       text.set(look(queue));
+      if (looks % kLooksAMetric == 0) text.set_metrics(look_for_metrics(queue, broker.reached()));
       for (LocalTime waited{0}; !quit && waited < kPeriod; waited += kTurn)
         std::this_thread::sleep_for(kTurn);
     }

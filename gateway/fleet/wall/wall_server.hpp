@@ -1,13 +1,20 @@
 #pragma once
-// Serves the wall by HTTP to this computer, and asks the queue once a second for what it shows.
+// Serves the wall by HTTP to this computer, and asks the queue once a second for what it shows; every five
+// seconds for what Prometheus reads, whoever asks how often.
 
 #include <atomic>
 #include <string>
 
 namespace kinebus::fleet {
 
-/// `address`: "127.0.0.1:7450"; only one of this computer is taken. Returns soon after `quit` is set; what is
-/// wrong with the address is thrown as words (std::runtime_error).
-void serve_wall(const std::string& database, const std::string& address, const std::atomic<bool>& quit);
+struct WallOptions {
+  std::string database;
+  std::string address;        ///< "127.0.0.1:7450"; only one of this computer is taken
+  std::string broker_host{};  ///< of MQTT, whether it can be reached; empty: not asked for
+  int broker_port = 0;
+};
+
+/// Returns soon after `quit` is set; what is wrong with the address is thrown as words (std::runtime_error).
+void serve_wall(const WallOptions& options, const std::atomic<bool>& quit);
 
 }  // namespace kinebus::fleet

@@ -84,7 +84,9 @@ void WallSession::answer(const http::Head& head) {
   const std::string_view path = std::string_view(head.target).substr(0, head.target.find('?'));
   if (path == "/") return say(200, "text/html; charset=utf-8", kWallPage, head.keep_alive);
   if (path == "/fleet.json") return say(200, "application/json", text_.get(), head.keep_alive);
-  say(404, "text/plain", "expected / or /fleet.json\n", head.keep_alive);
+  if (path == "/metrics")
+    return say(200, "text/plain; version=0.0.4; charset=utf-8", text_.metrics(), head.keep_alive);
+  say(404, "text/plain", "expected /, /fleet.json or /metrics\n", head.keep_alive);
 }
 
 void WallSession::say(int status, const char* type, const std::string& body, bool keep) {

@@ -1,5 +1,6 @@
 #pragma once
-// What the wall shows now, as JSON; written by who asks the queue, read by the sessions.
+// What the wall shows now, as JSON, and what Prometheus reads; written by who asks the queue, read by the
+// sessions.
 
 #include <mutex>
 #include <string>
@@ -20,10 +21,18 @@ class WallText {
     const std::lock_guard lock(busy_);
     text_ = std::move(text);
   }
+  std::string metrics() const {
+    const std::lock_guard lock(busy_);
+    return metrics_;
+  }
+  void set_metrics(std::string text) {
+    const std::lock_guard lock(busy_);
+    metrics_ = std::move(text);
+  }
 
  private:
   mutable std::mutex busy_;
-  std::string text_ = "{}";
+  std::string text_ = "{}", metrics_;
 };
 
 /// The page: HTML with style and script inside.

@@ -70,10 +70,25 @@ const std::string& Server::status_json(LocalTime now, Caller& by) {
 std::unique_ptr<ByteSession> Server::open(LocalTime now, std::string transport, std::string peer,
                                           std::string_view address) {
   const bool room = make_room(now);
-  auto session = std::make_unique<Session>(*this, now, std::move(transport), std::move(peer),
-                                           options_.users.role_at(address));
+  auto session = std::make_unique<Session>(*this, now, std::move(transport), std::move(peer), address);
   if (!room) session->turn_away();
   return session;
+}
+
+std::size_t Server::take_users(LocalTime now, Users users) {
+  const Users before = std::exchange(options_.users, std::move(users));
+  const auto stays = [&](const Visitor& visitor, std::string_view address) {
+    return before.same_by(options_.users, visitor, address);
+  };
+  logins_.keep_if([&](const Login& login) { return stays(login.visitor, login.address); });
+  std::size_t put_out = 0;
+  // One that is put out stays in its place until the loop takes it away.
+  for (const auto& [id, session] : sessions_)
+    if (!session->ended() && !stays(session->present(), session->address())) {
+      session->put_out(now);
+      ++put_out;
+    }
+  return put_out;
 }
 
 /// When all places are taken, the oldest connection that waits for nothing goes, of the peer that has most.

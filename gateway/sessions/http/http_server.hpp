@@ -68,6 +68,9 @@ class Server {
   /// `peer`: whose places it takes. `address`: where it comes from, for Users::role_at.
   std::unique_ptr<ByteSession> open(LocalTime now, std::string transport, std::string peer,
                                     std::string_view address = {});
+  /// From here on these may ask, and no others: who came in as somebody that is not there any more, or has
+  /// another key or role, is put out, connections, websockets and log-ins. Returns how many connections.
+  std::size_t take_users(LocalTime now, Users users);
   void on_event(const MachineEvent& event);
   void on_time(LocalTime now);
   LocalTime next_deadline() const { return next_note_; }

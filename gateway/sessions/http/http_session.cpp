@@ -80,11 +80,12 @@ Answer refusal_of(int status, std::string_view why) {
 
 }  // namespace
 
-Session::Session(Server& server, LocalTime now, std::string transport, std::string peer, Role of_network)
+Session::Session(Server& server, LocalTime now, std::string transport, std::string peer,
+                 std::string_view address)
     : Caller(server, now),
       transport_(std::move(transport)),
       peer_(std::move(peer)),
-      of_network_(of_network),
+      address_(address),
       since_(now),
       moved_(now) {
   server_.sessions_[id()] = this;
@@ -102,6 +103,16 @@ void Session::on_closed(LocalTime now, std::string_view why) {
   out_.clear();
   sent_ = 0;
   end_exchange();
+}
+
+Visitor Session::present() const {
+  if (socket_) return socket_->visitor();
+  return task_ != nullptr ? visitor() : Visitor();
+}
+
+void Session::put_out(LocalTime now) {
+  if (socket_) return socket_->end(CloseCode::kPolicy, "who this is may not ask for the same any more");
+  on_closed(now, "its user has changed");
 }
 
 void Session::on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) {
@@ -191,7 +202,8 @@ void Session::recognise() {
   shown_ = verdict.shown;
   // A link on another server's page commands nothing, wherever its reader sits.
   const bool page_is_open = head().method == "GET" && may_be_of_other_page(head());
-  const Role here = page_is_open ? std::min(of_network_, Role::kWatch) : of_network_;
+  const Role of_network = server_.users().role_at(address_);
+  const Role here = page_is_open ? std::min(of_network, Role::kWatch) : of_network;
   const bool by_network = verdict.user == nullptr || verdict.user->visitor.role < here;
   become(by_network ? Visitor{.role = here} : verdict.user->visitor);
 }

@@ -57,9 +57,9 @@ class Session : public ByteSession, public Caller {
   static constexpr LocalTime kStall = std::chrono::seconds{30};
   static constexpr LocalTime kLinger = std::chrono::seconds{2};
 
-  /// `of_network`: what clients from there may do without a key.
+  /// `address`: where it comes from; its network may be trusted.
   Session(Server& server, LocalTime now, std::string transport, std::string peer,
-          Role of_network = Role::kNobody);
+          std::string_view address = {});
   ~Session() override;
 
   void on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) override;
@@ -76,6 +76,11 @@ class Session : public ByteSession, public Caller {
   bool idle() const { return socket_ ? !socket_->is_in() : task_ == nullptr && out_.empty() && !ended_; }
   bool is_socket() const { return socket_ != nullptr; }
 
+  /// Who it is for whom something is open now; nobody between two requests, as each shows its own key.
+  Visitor present() const;
+  const std::string& address() const { return address_; }
+  /// That one may not ask any more, or not for the same.
+  void put_out(LocalTime now);
   /// No place for it.
   void turn_away() { refuse(503, "all places for connections are taken: come back in some seconds"); }
 
@@ -115,8 +120,7 @@ class Session : public ByteSession, public Caller {
   void refuse_stranger();
   std::string_view input() const { return std::string_view(in_).substr(at_); }
 
-  std::string transport_, peer_;
-  Role of_network_;
+  std::string transport_, peer_, address_;
   Reader reader_;
   std::string in_, out_;
   std::size_t at_ = 0, sent_ = 0;  ///< of in_ and out_, done with

@@ -47,12 +47,6 @@ bool is_in(const std::array<std::uint8_t, 16>& address, const std::array<std::ui
   return ((address[bits / 8] ^ network[bits / 8]) & mask & 0xFFU) == 0;
 }
 
-std::optional<Role> role_of(std::string_view word) {
-  for (const Role role : {Role::kWatch, Role::kOperate, Role::kAdminister})
-    if (word == word_of(role)) return role;
-  return std::nullopt;
-}
-
 /// "line 3: "
 std::string place(const toml::node& node) {
   return "line " + std::to_string(node.source().begin.line) + ": ";
@@ -86,7 +80,7 @@ std::string add_user(const toml::table& table, std::vector<User>& users) {
   const std::string word = text_of(table, "role");
   const auto role = role_of(word);
   if (!role) return no_role(word);
-  User user{.visitor = {text_of(table, "name"), *role}, .key = text_of(table, "key")};
+  User user{.visitor = {text_of(table, "name"), *role, true}, .key = text_of(table, "key")};
   const std::string& name = user.visitor.name;
   if (name.empty()) return "a user has a name";
   if (user.key.size() < Users::kShortestKey)
@@ -117,7 +111,7 @@ std::string add_network(const toml::table& table, std::vector<TrustedNetwork>& n
   if (bits < (address->is_v4 ? kFewestBits4 : kFewestBits6))
     return "'" + text + "' is too wide to be trusted (/8 or narrower)";
   if (*role == Role::kAdminister) return "who administers shows a key (watch, operate)";
-  networks.push_back({address->bytes, bits + (address->is_v4 ? kMappedBits : 0U), *role});
+  networks.push_back({text, address->bytes, bits + (address->is_v4 ? kMappedBits : 0U), *role});
   return {};
 }
 
@@ -135,6 +129,12 @@ const char* word_of(Role role) {
       break;
   }
   return "nobody";
+}
+
+std::optional<Role> role_of(std::string_view word) {
+  for (const Role role : {Role::kWatch, Role::kOperate, Role::kAdminister})
+    if (word == word_of(role)) return role;
+  return std::nullopt;
 }
 
 Role role_for(const joblink::ClientMessage& message) {
@@ -166,7 +166,8 @@ Role role_for(const joblink::ClientMessage& message) {
   }
 }
 
-Users::Users(std::string key) : users_{{.visitor = {.role = Role::kAdminister}, .key = std::move(key)}} {}
+Users::Users(std::string key)
+    : users_{{.visitor = {.role = Role::kAdminister, .has_key = true}, .key = std::move(key)}} {}
 
 Result<Users, std::string> Users::read(std::string key, std::string_view toml) {
   const toml::parse_result parsed = toml::parse(toml);
@@ -205,6 +206,24 @@ Role Users::role_at(std::string_view address) const {
   for (const TrustedNetwork& network : networks_)
     if (is_in(from->bytes, network.address, network.bits)) role = std::max(role, network.role);
   return role;
+}
+
+const User* Users::by_name(std::string_view name) const {
+  const auto found =
+      std::find_if(users_.begin(), users_.end(), [&](const User& user) { return user.visitor.name == name; });
+  return found == users_.end() ? nullptr : &*found;
+}
+
+bool Users::same_by(const Users& fresh, const Visitor& visitor, std::string_view address) const {
+  if (visitor.role == Role::kNobody) return true;
+  if (!visitor.has_key) {
+    const Role role = fresh.role_at(address);
+    return role == role_at(address) && visitor.role <= role;
+  }
+  const User* const before = by_name(visitor.name);
+  const User* const after = fresh.by_name(visitor.name);
+  return before != nullptr && after != nullptr && same_key(before->key, after->key) &&
+         before->visitor.role == after->visitor.role;
 }
 
 }  // namespace kinebus::http

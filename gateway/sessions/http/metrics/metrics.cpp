@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "gateway/sessions/http/api.hpp"
-#include "gateway/sessions/http/metrics/exposition.hpp"
 #include "gateway/sessions/http/routes.hpp"
+#include "gateway/sessions/http/wire/exposition.hpp"
 
 namespace kinebus::http {
 namespace {

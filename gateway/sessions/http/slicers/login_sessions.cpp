@@ -7,8 +7,8 @@
 
 namespace kinebus::http {
 
-std::string LoginSessions::begin(LocalTime now, Visitor visitor) {
-  logins_.push_back({unguessable(), now + kFor, std::move(visitor)});
+std::string LoginSessions::begin(LocalTime now, Visitor visitor, std::string address) {
+  logins_.push_back({unguessable(), now + kFor, std::move(visitor), std::move(address)});
   if (logins_.size() > kMost) logins_.pop_front();
   return logins_.back().session;
 }
@@ -18,6 +18,10 @@ std::optional<Visitor> LoginSessions::find(std::string_view session, LocalTime n
     return now < login.until && same_key(login.session, session);
   });
   return found == logins_.end() ? std::nullopt : std::optional(found->visitor);
+}
+
+void LoginSessions::keep_if(const std::function<bool(const Login&)>& stays) {
+  std::erase_if(logins_, [&](const Login& login) { return !stays(login); });
 }
 
 }  // namespace kinebus::http

@@ -47,7 +47,7 @@ void login(Session& session, std::string_view body) {
     return session.refuse(403, "there are no names and passwords: clients are let in by X-Api-Key");
   Json answer = user_json(session.visitor());
   // For a websocket, which shows it in its first message (octoprint_push.cpp); requests show the key.
-  answer["session"] = session.server().logins().begin(session.now(), session.visitor());
+  answer["session"] = session.server().logins().begin(session.now(), session.visitor(), session.address());
   answer["_is_external_client"] = false;
   session.answer(json_answer(answer));
 }

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "gateway/sessions/http/metrics/exposition.hpp"
 #include "gateway/sessions/http/tests/http_rig.hpp"
+#include "gateway/sessions/http/wire/exposition.hpp"
 
 namespace kinebus::http {
 namespace {

@@ -180,5 +180,87 @@ TEST(Roles, TheClientsOfAUserBearItsName) {
   EXPECT_NE(rig.link.control.name_of(rig.link.control.holder()).find("anna: "), std::string::npos);
 }
 
+std::string without(std::string file, const std::string& part, const std::string& instead = {}) {
+  return file.replace(file.find(part), part.size(), instead);
+}
+
+const std::string kAnna = "[[user]]\nname = \"anna\"\nrole = \"operate\"\nkey = \"a-key-that-operates\"\n";
+constexpr const char* kSocketPath = "/kinebus/v1/socket";
+
+TEST(ChangedUsers, WhoIsChangedIsPutOutAndNobodyElse) {
+  const std::string changes[] = {
+      without(kFile, kAnna),
+      without(kFile, "\"operate\"", "\"watch\""),
+      without(kFile, "\"operate\"", "\"administer\""),
+      without(kFile, "a-key-that-operates", "another-key-that-operates"),
+      without(kFile, "\"anna\"", "\"berta\""),
+  };
+  for (const std::string& change : changes) {
+    UsersRig rig;
+    SocketClient anna(rig, kSocketPath, kOperateKey), wall(rig, kSocketPath, kWatchKey);
+    SocketClient owner(rig, kSocketPath, kKey);
+    anna.say(R"({"request_id":1,"take_control":{}})");
+    EXPECT_NE(rig.link.control.holder(), 0U);
+    EXPECT_EQ(rig.server.take_users(rig.link.machine.now, *Users::read(kKey, kFile)), 0U) << "as it was";
+    EXPECT_EQ(rig.server.take_users(rig.link.machine.now, *Users::read(kKey, change)), 1U) << change;
+    rig.pump();
+    EXPECT_TRUE(anna.wire.session->ended()) << change;
+    EXPECT_NE(anna.wire.heard.find("may not ask for the same any more"), std::string::npos);
+    EXPECT_EQ(rig.link.control.holder(), 0U) << "control goes with who had it";
+    EXPECT_FALSE(wall.wire.session->ended());
+    EXPECT_EQ(owner.say(R"({"request_id":2,"get_status":{}})").size(), 1U);
+  }
+}
+
+TEST(ChangedUsers, ARequestOfAnOpenConnectionIsLookedUpAnew) {
+  UsersRig rig;
+  Connection& connection = rig.connect();
+  const std::string request =
+      std::string("GET /api/currentuser HTTP/1.1\r\nHost: 127.0.0.1:5000\r\nX-Api-Key: ") + kOperateKey +
+      "\r\n\r\n";
+  EXPECT_EQ(rig.ask(connection, request).status, 200);
+  rig.server.take_users(rig.link.machine.now, *Users::read(kKey, without(kFile, kAnna)));
+  EXPECT_EQ(rig.ask(connection, request).status, 401);
+}
+
+TEST(ChangedUsers, AnUploadOfWhoIsNoUserAnyMoreBreaksOff) {
+  UsersRig rig;
+  Connection& connection = rig.connect();
+  connection.to_send =
+      std::string("PUT /api/v1/files/local/a.gcode HTTP/1.1\r\nHost: 127.0.0.1:5000\r\nX-Api-Key: ") +
+      kOperateKey + "\r\nContent-Type: text/x.gcode\r\nContent-Length: 100\r\n\r\nG28\n";
+  rig.pump();
+  EXPECT_EQ(rig.half_uploads(), 1);
+  EXPECT_EQ(rig.server.take_users(rig.link.machine.now, *Users::read(kKey, without(kFile, kAnna))), 1U);
+  rig.pump();
+  EXPECT_TRUE(connection.session->ended());
+  EXPECT_EQ(rig.half_uploads(), 0);
+}
+
+TEST(ChangedUsers, ATrustedNetworkIsLookedUpAnew) {
+  UsersRig rig;
+  rig.address = "10.0.0.9";
+  SocketClient page(rig, kSocketPath, "");
+  page.say(R"({"request_id":1,"hello":{"version_major":2}})");
+  Connection& connection = rig.connect();
+  const std::string request = "GET /api/currentuser HTTP/1.1\r\nHost: 127.0.0.1:5000\r\n\r\n";
+  EXPECT_EQ(rig.ask(connection, request).status, 200);
+  EXPECT_EQ(rig.server.take_users(rig.link.machine.now,
+                                  *Users::read(kKey, without(kFile, "10.0.0.0/24", "10.1.0.0/24"))),
+            1U);
+  rig.pump();
+  EXPECT_TRUE(page.wire.session->ended());
+  EXPECT_EQ(rig.ask(connection, request).status, 401);
+}
+
+TEST(ChangedUsers, ALoginLivesAsLongAsItsUser) {
+  UsersRig rig;
+  const nlohmann::json login = rig.with(kOperateKey, "POST", "/api/login", R"({"passive":true})").json();
+  const nlohmann::json wall = rig.with(kWatchKey, "POST", "/api/login", R"({"passive":true})").json();
+  rig.server.take_users(rig.link.machine.now, *Users::read(kKey, without(kFile, kAnna)));
+  EXPECT_FALSE(rig.server.logins().find(login["session"].get<std::string>(), rig.link.machine.now));
+  EXPECT_TRUE(rig.server.logins().find(wall["session"].get<std::string>(), rig.link.machine.now));
+}
+
 }  // namespace
 }  // namespace kinebus::http

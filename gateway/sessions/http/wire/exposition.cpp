@@ -1,4 +1,4 @@
-#include "gateway/sessions/http/metrics/exposition.hpp"
+#include "gateway/sessions/http/wire/exposition.hpp"
 
 #include <array>
 #include <charconv>
