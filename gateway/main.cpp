@@ -21,8 +21,9 @@ volatile std::sig_atomic_t quit = 0, reread = 0;
 void on_signal(int) {
   quit = 1;
 }
-void on_hang_up(int) {
-  reread = 1;
+/// Of a person or systemd: users are read anew. Of the kernel: the terminal in which it was begun is closed.
+void on_hang_up(int, siginfo_t* from, void*) {
+  (from->si_code == SI_KERNEL ? quit : reread) = 1;
 }
 
 int run(int argc, char** argv) {
@@ -37,7 +38,10 @@ int run(int argc, char** argv) {
   // From here on: who asks it to end while it begins has it begun and ended.
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  std::signal(SIGHUP, on_hang_up);
+  struct sigaction hang_up {};
+  hang_up.sa_sigaction = on_hang_up;
+  hang_up.sa_flags = SA_SIGINFO | SA_RESTART;
+  ::sigaction(SIGHUP, &hang_up, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
   bool anew = false;
   try {
