@@ -9,12 +9,14 @@ using namespace std::chrono_literals;
 constexpr BusTime kHeardWithin = 2s;
 /// Everything that is wrong has been told.
 constexpr BusTime kQuiet = 1s;
-/// A computer on which this comes again and again needs a person.
+/// A computer on which this comes again and again needs a person; one that ran so long in between does not.
 constexpr int kMostInARow = 5;
+constexpr BusTime kRow = 10min;
 
 }  // namespace
 
 void StallRecovery::on_stall(BusTime now, BusTime length, const Sentence& why) {
+  if (now - stall_end_ > kRow) in_a_row_ = 0;
   stalled_ = true;
   stall_end_ = now;
   events_.message(now, say("the gateway did not run for %1 s: %2", printed("%.2f", to_seconds(length)), why));

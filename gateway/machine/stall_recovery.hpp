@@ -35,7 +35,7 @@ class StallRecovery {
   bool stopping_ = false;  ///< the stop under way has been judged
   bool stalled_ = false;
   BusTime stall_end_{0};
-  int in_a_row_ = 0;  ///< without a command in between
+  int in_a_row_ = 0;  ///< without a command or a long good time in between
 };
 
 }  // namespace kinebus

@@ -87,6 +87,25 @@ TEST_F(Stall, ThatComesASixthTimeInAJobWaitsForAPerson) {
   ASSERT_TRUE(rig.run_until(runs, 30s)) << rig.story();
 }
 
+TEST_F(Stall, OncesInAWhileAreNeverTooMany) {
+  MachineRig rig(that_goes_on());
+  std::string job;
+  for (int i = 0; i < 2; ++i) job += kJob;
+  job += "G4 P900000\n";
+  std::string all;
+  for (int i = 0; i < 7; ++i) all += job;
+  ASSERT_TRUE(rig.make_ready());
+  ASSERT_TRUE(rig.gateway->carry_out(command::Run{std::make_unique<StringSource>(all), "test"}));
+  const auto runs = [&] { return rig.gateway->state() == MachineState::kRunning; };
+  for (int i = 0; i < 7; ++i) {
+    ASSERT_TRUE(rig.run_until(runs, 30s)) << i << rig.story();
+    rig.run_for(2s);
+    rig.stall(900ms);
+    rig.run_for(11min);
+    ASSERT_TRUE(runs()) << i << rig.story();
+  }
+}
+
 TEST_F(Stall, NothingElseThatIsWrongIsCleared) {
   MachineRig rig(that_goes_on());
   ASSERT_TRUE(begin(rig)) << rig.story();
