@@ -156,6 +156,23 @@ TEST_F(DriveTest, HomingEndsWithinAFrameWhenItsStartBitFalls) {
   watch(100ms, 1, 1);
 }
 
+TEST_F(DriveTest, HomingIsOverWhenTheDriveIsDisabledAndDoesNotGoOnByItself) {
+  bench.write(kId, 0x6098, 0, 1, 20);
+  bench.enable(kId, 0, 6);
+  control(0x1F);
+  watch(500ms, 38'400, 1'280'000);
+  control(0x17);
+  watch(500ms, 38'400, 1'280'000);
+  EXPECT_EQ(status() & 0x6F, 0x23);
+  control(0x1F);
+  watch(500ms, 1, 1);
+  EXPECT_EQ(status() & 0x1400, 0x0400) << "at rest, and not at home";
+  control(0x0F);
+  control(0x1F);
+  bench.run(8s);
+  EXPECT_EQ(status() & 0x3400, 0x1400) << "asked for again, it homes";
+}
+
 TEST_F(DriveTest, HomingWithoutASwitchTellsAnErrorAndAnEmergency) {
   bench.plant_on = false;
   bench.write(kId, 0x2140, 9, 4, 20'000);

@@ -66,6 +66,24 @@ TEST_F(StreamTest, AFaultOfOneAxisStopsAllOthersOnThePath) {
   EXPECT_TRUE(all_rest());
 }
 
+TEST_F(StreamTest, ACarriageThatFindsNoSwitchStopsThoseThatHomeWithIt) {
+  bench.plant_on = false;
+  for (const std::uint8_t id : {std::uint8_t{1}, std::uint8_t{3}}) {
+    bench.write(id, 0x2140, 9, 4, id == 1 ? 20'000 : 400'000);
+    bench.write(id, 0x6098, 0, 1, 20);
+    bench.enable(id, 0, 6);
+  }
+  for (const std::uint8_t id : {std::uint8_t{1}, std::uint8_t{3}}) bench.write(id, 0x6040, 0, 2, 0x1F);
+  bench.run(3s);
+  EXPECT_EQ(bench.statusword(1, 0) & 0x3400, 0x2400) << "its error";
+  const std::int64_t rests = bench.position(2, 0);
+  EXPECT_GT(std::abs(rests), from_counts(10'000)) << "it homed, too";
+  EXPECT_LT(std::abs(rests), from_counts(60'000)) << "and ends with the first";
+  bench.run(500ms);
+  EXPECT_EQ(bench.position(2, 0), rests);
+  EXPECT_TRUE(bench.node(2).drive(0).power);
+}
+
 TEST_F(StreamTest, QuickStopOfOneAxisIsAStopOfAll) {
   move_through_wave(6, 200ms);
   CanFrame quick{.id = 0x201, .length = 6};
