@@ -88,8 +88,10 @@ void Daemon::run(const volatile std::sig_atomic_t* quit, bool& anew) {
   LocalTime next_watchdog{0};
   LocalTime quit_at = LocalTime::max();
   for (;;) {
-    if (const auto stall = stalls_.wakes(loop_.now()))
+    if (const auto stall = stalls_.wakes(loop_.now())) {
       gateway_.on_stall(loop_.now(), stall->length, stall->why);
+      for (DaemonPart* part : parts_) part->on_stall(loop_.now(), stall->length);
+    }
     exchange_frames();
     report_events();
     const LocalTime now = loop_.now();

@@ -176,6 +176,12 @@ void StreamHub::on_time(LocalTime now) {
   std::erase_if(pairs_, [](const auto& pair) { return pair->closed; });
 }
 
+void StreamHub::on_stall(LocalTime now, LocalTime length) {
+  if (length < options_.absence) return;
+  for (const auto& pair : pairs_)
+    if (!pair->closed) pair->session->on_absence(now);
+}
+
 void StreamHub::serve(Pair& pair, LocalTime now) {
   if (now >= pair.session->next_deadline()) pair.session->on_time(now);
   if (pair.session->ended() && pair.close_at == LocalTime::max()) pair.close_at = now + options_.farewell;

@@ -28,6 +28,8 @@ class StreamHub : public DaemonPart {
     /// and the kernel stops who never sleeps (sched_rt_runtime_us) for 50 ms each second.
     double share = 0.6;
     LocalTime burst = std::chrono::milliseconds{200};
+    /// A stall of the loop so long is told to the sessions: they allow their clients several times that.
+    LocalTime absence = std::chrono::seconds{1};
   };
 
   explicit StreamHub(EventLoop& loop);
@@ -43,6 +45,7 @@ class StreamHub : public DaemonPart {
   /// loop.
   void on_event(const MachineEvent&) override {}
   void on_time(LocalTime now) override;
+  void on_stall(LocalTime now, LocalTime length) override;
   LocalTime next_deadline() const override;
   std::size_t streams() const { return pairs_.size(); }
 

@@ -19,6 +19,9 @@ class ByteSession {
   virtual void on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) = 0;
   virtual void on_time(LocalTime now) = 0;
   virtual LocalTime next_deadline() const = 0;
+  /// Nobody listened for a while until now, and the other side may not have run either: whoever has to speak
+  /// or to read within a time has all of it anew.
+  virtual void on_absence(LocalTime /*now*/) {}
   /// What to send now; empty: nothing. Valid until the next call of anything here.
   virtual std::span<const std::uint8_t> next_bytes() = 0;
   virtual void on_bytes_sent(std::size_t count) = 0;

@@ -225,6 +225,7 @@ void JobLinkSession::request(LocalTime now, const ClientMessage& message) {
 void JobLinkSession::welcomed(LocalTime now, ClientId client, std::string resume_key, bool visitor) {
   client_ = client;
   visitor_ = visitor;
+  awaited_ = !visitor && !info_.remote;
   since_ = now;
   resume_key_ = std::move(resume_key);
   reader_.limit(joblink::kMaxMessageBytes);
@@ -263,7 +264,7 @@ void JobLinkSession::on_time(LocalTime now) {
   work(now);
   if (client_ != 0 && now >= last_heard_ + server_.options_.silence_limit)
     resynchronise(now, "the client has said nothing for too long");
-  if ((stranger() || visitor()) && now >= since_ + server_.options_.hello_within)
+  if (leaves_soon() && now >= since_ + server_.options_.hello_within)
     end(now, "the visit is over: all places for clients were taken");
   if (now < next_status_) return;
   next_status_ = std::max(next_status_ + status_period_, now);
@@ -275,9 +276,13 @@ LocalTime JobLinkSession::next_deadline() const {
   if (work_waits()) return LocalTime{0};
   LocalTime next = next_status_;
   if (client_ != 0) next = std::min(next, last_heard_ + server_.options_.silence_limit);
-  if (stranger() || visitor()) next = std::min(next, since_ + server_.options_.hello_within);
+  if (leaves_soon()) next = std::min(next, since_ + server_.options_.hello_within);
   if (reader_.pending() > 0 && !full()) next = std::min(next, std::max(last_heard_, now_) + kHalfFrame);
   return next;
+}
+
+void JobLinkSession::on_absence(LocalTime now) {
+  last_heard_ = since_ = now;
 }
 
 std::span<const std::uint8_t> JobLinkSession::next_bytes() {

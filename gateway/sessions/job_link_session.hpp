@@ -19,6 +19,7 @@ class JobLinkSession : public ByteSession, public Requester {
   void on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) override;
   void on_time(LocalTime now) override;
   LocalTime next_deadline() const override;
+  void on_absence(LocalTime now) override;
   std::span<const std::uint8_t> next_bytes() override;
   void on_bytes_sent(std::size_t count) override;
   bool wants_bytes() const override;
@@ -52,6 +53,8 @@ class JobLinkSession : public ByteSession, public Requester {
   bool greeted(const JobLinkServer::Asker& asker);
   void leave(LocalTime now);
   void resynchronise(LocalTime now, const char* why);
+  /// It leaves by itself at since_ + hello_within.
+  bool leaves_soon() const { return visitor() || (stranger() && !awaited_); }
   bool write(std::string_view message);
   bool full() const;
 
@@ -69,6 +72,9 @@ class JobLinkSession : public ByteSession, public Requester {
   /// A stranger since, or a visitor.
   LocalTime since_{0};
   bool unread_ = false;  ///< whole frames may wait in the reader
+  /// It was a client, and its computer is this one: it may have been stopped for a while, and comes back. Did
+  /// it not, the stream would have ended.
+  bool awaited_ = false;
   bool visitor_ = false, watches_events_ = false, ended_ = false;
   std::uint64_t told_event_ = 0;
   int open_requests_ = 0;  ///< a reply that comes later counts until it is sent

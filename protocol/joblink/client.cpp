@@ -346,7 +346,7 @@ void Client::take_upload_reply(const Reply& reply) {
 }
 
 void Client::on_time(LocalTime now) {
-  now_ = now;
+  const LocalTime before = std::exchange(now_, now);
   switch (phase_) {
     case Phase::kClosed:
       return;
@@ -357,6 +357,8 @@ void Client::on_time(LocalTime now) {
     case Phase::kOpen:
       break;
   }
+  // Who was away cannot tell whether the gateway was silent.
+  if (now >= std::max(next_deadline(before), before) + options_.absence) last_heard_ = now;
   if (now >= last_heard_ + options_.silence_limit) {
     end_session(now, "the gateway has gone silent", true);
     return;
@@ -369,6 +371,10 @@ void Client::on_time(LocalTime now) {
 }
 
 LocalTime Client::next_deadline() const {
+  return next_deadline(now_);
+}
+
+LocalTime Client::next_deadline(LocalTime now) const {
   switch (phase_) {
     case Phase::kClosed:
       return LocalTime::max();
@@ -378,9 +384,9 @@ LocalTime Client::next_deadline() const {
     case Phase::kOpen:
       break;
   }
-  const LocalTime silence = last_heard_ + options_.silence_limit;
   // With output waiting the stream is slow: a ping behind it would tell nothing.
-  return out_.empty() ? std::min(silence, last_written_ + options_.ping_period) : silence;
+  const LocalTime ping = (out_.empty() ? last_written_ : now) + options_.ping_period;
+  return std::min(last_heard_ + options_.silence_limit, ping);
 }
 
 std::optional<News> Client::next_news() {

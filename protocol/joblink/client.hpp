@@ -84,6 +84,8 @@ class Client {
         1;  ///< random: a session's number must differ from the one before it on this pipe
     std::chrono::milliseconds ping_period{1000};  ///< when nothing else is sent
     std::chrono::milliseconds silence_limit{4000};
+    /// Run so much later than it asked to be, it gives the gateway the whole limit anew.
+    std::chrono::milliseconds absence{500};
   };
 
   explicit Client(Options options);
@@ -119,6 +121,7 @@ class Client {
   enum class Phase : std::uint8_t { kClosed, kGreeting, kOpen, kWaiting };
   struct Upload;
 
+  LocalTime next_deadline(LocalTime now) const;  ///< as it was asked for at `now`
   void begin_session(LocalTime now);
   void end_session(LocalTime now, const std::string& why, bool retry);
   void written();

@@ -34,12 +34,13 @@ using namespace std::chrono_literals;
 /// Says back what it hears.
 class Echo : public ByteSession {
  public:
-  explicit Echo(int* closed) : closed_(closed) {}
+  explicit Echo(int* closed, int* absences = nullptr) : closed_(closed), absences_(absences) {}
   void on_bytes(LocalTime, std::span<const std::uint8_t> bytes) override {
     out_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     most_ = std::max(most_, out_.size());
   }
   void on_time(LocalTime) override {}
+  void on_absence(LocalTime) override { ++*absences_; }
   LocalTime next_deadline() const override { return LocalTime::max(); }
   std::span<const std::uint8_t> next_bytes() override {
     return {reinterpret_cast<const std::uint8_t*>(out_.data()), out_.size()};
@@ -50,7 +51,7 @@ class Echo : public ByteSession {
   void on_closed(LocalTime, std::string_view) override { ++*closed_; }
 
  private:
-  int* closed_;
+  int *closed_, *absences_;
   std::string out_;
   std::size_t most_ = 0;
 };
@@ -175,6 +176,20 @@ TEST_F(StreamsTest, WhoDoesNotReadTheFarewellIsClosedAllTheSame) {
     came = came || hub.streams() == 1;
     return came && hub.streams() == 0;
   }));
+}
+
+TEST_F(StreamsTest, SessionsHearThatTheLoopWasAwayButOfNoTrifles) {
+  int absences = 0;
+  Listener listener(loop_, [&](int fd, const std::string&) {
+    hub_.add(std::make_unique<SocketStream>(fd), std::make_unique<Echo>(&closed_, &absences));
+  });
+  ASSERT_EQ(listener.listen_local(folder_.path() / "socket", ""), "");
+  const auto one = connect_local(folder_.path() / "socket"), two = connect_local(folder_.path() / "socket");
+  ASSERT_TRUE(turn_until([&] { return hub_.streams() == 2; }));
+  hub_.on_stall(monotonic_now(), 300ms);
+  EXPECT_EQ(absences, 0);
+  hub_.on_stall(monotonic_now(), 20s);
+  EXPECT_EQ(absences, 2);
 }
 
 /// Takes half a millisecond for whatever it hears.

@@ -356,6 +356,11 @@ void Session::on_time(LocalTime now) {
   }
 }
 
+void Session::on_absence(LocalTime now) {
+  if (socket_) return socket_->on_absence(now);
+  since_ = moved_ = now;
+}
+
 LocalTime Session::next_deadline() const {
   if (socket_) return socket_->next_deadline();
   if (ended_) return LocalTime::max();

@@ -65,6 +65,7 @@ class Session : public ByteSession, public Caller {
   void on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) override;
   void on_time(LocalTime now) override;
   LocalTime next_deadline() const override;
+  void on_absence(LocalTime now) override;
   std::span<const std::uint8_t> next_bytes() override;
   void on_bytes_sent(std::size_t count) override;
   bool wants_bytes() const override;

@@ -131,6 +131,10 @@ void Socket::on_time(LocalTime now) {
   if (is_in_ && has_room() && now >= dialect_->next_news()) dialect_->on_room(now);
 }
 
+void Socket::on_absence(LocalTime now) {
+  since_ = heard_ = moved_ = now;
+}
+
 LocalTime Socket::next_deadline() const {
   if (ended_) return LocalTime::max();
   if (work_waits()) return LocalTime{0};

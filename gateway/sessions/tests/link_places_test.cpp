@@ -31,6 +31,41 @@ TEST(LinkPlaces, WhoSaysNoHelloIsCutOffOnEveryTransport) {
   EXPECT_FALSE(cable->ended());
 }
 
+TEST(LinkPlaces, AClientOfThisComputerThatWasStoppedComesBackOnItsStream) {
+  LinkRig rig;
+  LinkedClient& here = rig.connect("here");
+  LinkedClient& there =
+      rig.connect("there", 0, {.transport = "tcp a", .token = {}, .peer = "a", .remote = true});
+  ASSERT_FALSE(rig.ask(here, take_control()).has_error());
+  // Neither is run: the gateway hears nothing of them.
+  const BusTime stopped = rig.machine.now;
+  while (rig.machine.now < stopped + 60s) {
+    rig.machine.run_for(500ms);
+    for (const LinkedClient* client : {&here, &there}) client->session->on_time(rig.machine.now);
+  }
+  EXPECT_EQ(rig.control.clients().size(), 0U);
+  EXPECT_TRUE(there.session->ended());
+  ASSERT_FALSE(here.session->ended());
+  EXPECT_TRUE(rig.run_until([&] { return here.link.connected() && here.link.client_id() != 1; }, 3s));
+  EXPECT_EQ(rig.control.holder(), here.link.client_id());
+}
+
+TEST(LinkPlaces, AfterAPauseOfTheWholeComputerNobodyIsSilent) {
+  LinkRig rig;
+  LinkedClient& client = rig.connect("client");
+  const auto stranger = rig.server->open(rig.machine.now, {.transport = "x", .token = {}});
+  rig.machine.run_for(240s);
+  for (ByteSession* session : {client.session.get(), stranger.get()}) {
+    session->on_absence(rig.machine.now);
+    session->on_time(rig.machine.now);
+    EXPECT_FALSE(session->ended());
+  }
+  EXPECT_EQ(rig.control.clients().size(), 1U);
+  rig.run_for(5s);
+  EXPECT_TRUE(client.link.connected());
+  EXPECT_TRUE(client.all<joblink::Disconnected>().empty());
+}
+
 TEST(LinkPlaces, StrangersLockNobodyOut) {
   LinkRig rig;
   std::vector<std::unique_ptr<ByteSession>> greedy;

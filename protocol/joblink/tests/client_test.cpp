@@ -244,6 +244,26 @@ TEST_F(ClientTest, ASilentGatewayIsAskedAndThenGivenUp) {
   EXPECT_EQ(now_, LocalTime{milliseconds{4000}});
 }
 
+TEST_F(ClientTest, WhoWasAwayItselfDoesNotTakeTheGatewayForSilent) {
+  connect();
+  // A ping, which nobody answers before the computer stands still.
+  gateway_.mute = true;
+  now_ = client_.next_deadline();
+  client_.on_time(now_);
+  pump();
+  now_ += std::chrono::seconds{20};
+  client_.on_time(now_);
+  EXPECT_TRUE(client_.connected());
+  // From then on the gateway has its whole time, no more.
+  const LocalTime back = now_;
+  while (client_.connected() && now_ < back + std::chrono::seconds{10}) {
+    now_ = std::max(now_, client_.next_deadline());
+    client_.on_time(now_);
+    pump();
+  }
+  EXPECT_EQ(now_, back + LocalTime{milliseconds{4000}});
+}
+
 TEST_F(ClientTest, ARefusedHelloIsToldAndNotRepeated) {
   gateway_.hello_error = "wrong token";
   connect();

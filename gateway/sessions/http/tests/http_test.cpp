@@ -108,6 +108,24 @@ TEST(Http, NobodyIsWaitedForForEver) {
   EXPECT_EQ(rig.half_uploads(), 0);
 }
 
+TEST(Http, AfterAPauseOfTheWholeComputerEverybodyHasTheirTimeAnew) {
+  HttpRig rig;
+  Connection& slow_head = rig.connect();
+  Connection& slow_body = rig.connect();
+  slow_head.to_send = "GET /api/job HTTP/1.1\r\nHost: ";
+  slow_body.to_send = HttpRig::head("PUT", "/api/v1/files/local/a.gcode") + "Content-Length: 100\r\n\r\nG1";
+  rig.pump();
+  rig.link.machine.run_for(240s);
+  for (const Connection* connection : {&slow_head, &slow_body})
+    connection->session->on_absence(rig.link.machine.now);
+  rig.pump();
+  EXPECT_EQ(slow_head.heard, "");
+  EXPECT_EQ(slow_body.heard, "");
+  rig.run_until([&] { return slow_head.session->ended() && slow_body.session->ended(); }, 60s);
+  EXPECT_EQ(slow_head.take().status, 408);
+  EXPECT_EQ(slow_body.take().status, 408);
+}
+
 TEST(Http, ConnectionsThatWaitForNothingGiveWay) {
   HttpRig rig({}, 8);
   Connection& busy = rig.connect("tcp 10.0.0.9");

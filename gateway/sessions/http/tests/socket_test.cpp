@@ -101,6 +101,17 @@ TEST(WebSocket, WhoDoesNotShowTheKeyIsNotHeard) {
   EXPECT_EQ(heard.back().code(), 1008U);
 }
 
+TEST(WebSocket, AfterAPauseOfTheWholeComputerNobodyIsGone) {
+  HttpRig rig;
+  SocketClient client(rig, kPath), late(rig, kPath, "");
+  rig.link.machine.run_for(240s);
+  for (const SocketClient* one : {&client, &late}) one->wire.session->on_absence(rig.link.machine.now);
+  rig.pump();
+  EXPECT_FALSE(client.wire.session->ended());
+  EXPECT_FALSE(late.wire.session->ended());
+  EXPECT_FALSE(client.say(R"({"request_id":1,"get_status":{}})").empty());
+}
+
 TEST(WebSocket, TheKeyInTheHelloLetsIn) {
   HttpRig rig;
   SocketClient client(rig, kPath, "");
