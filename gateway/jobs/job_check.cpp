@@ -111,14 +111,15 @@ void JobCheck::check_extrusion(std::uint32_t line, double e_mm) {
   if (known == nullptr) return;
   Hotend& hotend = hotends_[tool_];
   by_found_heat_ = by_found_heat_ || !hotend.told;
-  const std::string least = celsius(machine_.thermal.min_extrude_c);
+  // Asked for each phase of a print: words are made when they are needed.
+  const auto least = [&] { return celsius(machine_.thermal.min_extrude_c); };
   if (!hotend.celsius) {
     hotend.cold_reported = true;
     add(Problem::Severity::kWarning, line,
         known->place.on_node()
             ? say("filament is fed before the job has set a %1 temperature (M104): it runs only while the %1 "
                   "is set to at least %2",
-                  heater_words(id), least)
+                  heater_words(id), least())
             : say("filament is fed before the job has set a %1 temperature (M104)", heater_words(id)));
   } else if (*hotend.celsius >= machine_.thermal.min_extrude_c) {
     hot_e_mm_ = std::max(hot_e_mm_, e_mm);
@@ -127,7 +128,7 @@ void JobCheck::check_extrusion(std::uint32_t line, double e_mm) {
     hotend.cold_reported = true;
     add(Problem::Severity::kError, line,
         say("filament is fed with the %1 at %2; at least %3 is needed", heater_words(id),
-            celsius(*hotend.celsius), least));
+            celsius(*hotend.celsius), least()));
   }
 }
 

@@ -47,6 +47,7 @@ void Segmenter::start(const std::array<AxisState, kAxesPerNode>& states) {
   at_.knot = 0;
   start_offset_ = 0;
   planned_.reset();
+  choices_.fill({});
   complete_ = ended_ = false;
   for (std::size_t i = 0; i < at_.axes.size(); ++i) {
     at_.axes[i].p = to_counts(states[i].position);
@@ -68,7 +69,7 @@ void Segmenter::widen(Axis& axis, double offset) {
 
 void Segmenter::append(const Piece& next) {
   if (at_.count > 0) {
-    Piece& before = piece(at_.count - 1);
+    Piece& before = place(at_.count - 1);
     const double d = before.end - before.start;
     before.jump = 0;
     for (std::size_t i = 0; i < at_.axes.size(); ++i)
@@ -76,7 +77,7 @@ void Segmenter::append(const Piece& next) {
                                               at_.axes[i].per_base_tolerance);
   }
   ++at_.count;
-  piece(at_.count - 1) = next;
+  place(at_.count - 1) = next;
 }
 
 void Segmenter::push(const JointSpan& span) {
@@ -128,9 +129,18 @@ std::size_t Segmenter::piece_at(double t, std::size_t hint) const {
 }
 
 /// The longest segment that is good, as far as a few trials find it.
-Segmenter::Fit Segmenter::choose() {
+const Segmenter::Fit& Segmenter::choose() {
+  for (const Choice& known : choices_)
+    if (known.knot == at_.knot && known.states == at_.states) return known.fit;
+  Choice& choice = choices_[next_choice_++ % kChoices];
+  furthest_ = 0;
   const Reach far = reach();
-  return far.at_end ? come_to_rest() : run_on(far);
+  choice.fit = far.at_end ? come_to_rest() : run_on(far);
+  // What more path might change is chosen anew.
+  const bool lasts = complete_ || furthest_ + 2 < at_.count;
+  choice.knot = lasts ? at_.knot : -1;
+  choice.states = at_.states;
+  return choice.fit;
 }
 
 Segmenter::Fit Segmenter::come_to_rest() {
@@ -232,7 +242,7 @@ bool Segmenter::leads_on(const Fit& f, int depth) {
   if (f.drift <= kSafeDrift) return true;
   const Position before = at_;
   apply(f);
-  const Fit following = choose();
+  const Fit following = choose();  // a copy: its place is needed again
   const bool far_enough = depth <= 0 && f.units + following.units >= kProofUnits;
   const bool proved =
       following.error <= 1 && (far_enough || (depth > -kMoreProofs && leads_on(following, depth - 1)));

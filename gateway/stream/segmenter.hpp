@@ -2,6 +2,7 @@
 // JointSpans -> segments of one node: the C1 piecewise quadratic, in exact integers, that stays within
 // tolerance of q(tau) on both axes with as few knots as that needs.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -123,8 +124,11 @@ class Segmenter {
     double bend = 0;  ///< q''/2 there
   };
 
-  const Piece& piece(std::size_t i) const { return pieces_[(at_.first + i) & (kCapacity - 1)]; }
-  Piece& piece(std::size_t i) { return pieces_[(at_.first + i) & (kCapacity - 1)]; }
+  const Piece& piece(std::size_t i) const {
+    furthest_ = std::max(furthest_, i);
+    return pieces_[(at_.first + i) & (kCapacity - 1)];
+  }
+  Piece& place(std::size_t i) { return pieces_[(at_.first + i) & (kCapacity - 1)]; }
   void append(const Piece& piece);
   static void widen(Axis& axis, double offset);
   bool ready() const;
@@ -139,7 +143,7 @@ class Segmenter {
   Extreme error_over(std::size_t axis, double a, double h, std::size_t last) const;
   Fit fit(std::int32_t units, Goal goal);
   void fit_axis(std::size_t axis, const Target& target, Fit& f) const;
-  Fit choose();
+  const Fit& choose();
   Fit come_to_rest();
   double steadied(double h) const;
   Fit run_on(const Reach& reach);
@@ -159,6 +163,15 @@ class Segmenter {
     std::array<AxisState, kAxesPerNode> states{};
   };
 
+  /// What was chosen at a knot with these states, whatever comes behind the pieces that were looked at.
+  struct Choice {
+    std::int64_t knot = -1;
+    std::array<AxisState, kAxesPerNode> states{};
+    Fit fit;
+  };
+  /// A segment is proved by those that follow, which are proved by theirs: each is wanted several times.
+  static constexpr std::size_t kChoices = 8;
+
   NodeAxes node_;
   Options options_;
   Counters counters_;
@@ -166,6 +179,9 @@ class Segmenter {
   std::array<double, kAxesPerNode> slope_{};  ///< counts per joint unit
   std::vector<Piece> pieces_;                 ///< ring of kCapacity
   Position at_;
+  mutable std::size_t furthest_ = 0;  ///< piece that was looked at since the last choice began
+  std::array<Choice, kChoices> choices_{};
+  std::size_t next_choice_ = 0;
   std::optional<Fit> planned_;  ///< the segment behind the last one given out, found when that one was proved
   double run_end_ = 0;          ///< units; valid when complete_
   double start_offset_ = 0;
