@@ -108,7 +108,8 @@ void StreamHub::on_ready(Pair& pair, std::uint32_t events) {
   if (!time_left()) return;
   std::array<std::uint8_t, 65'536> buffer;
   std::size_t taken = 0;
-  while (taken < options_.bytes_per_turn && pair.session->wants_bytes()) {
+  // Bytes may come in morsels, each a record of its own: those of a turn are bounded by its time, too.
+  while (taken < options_.bytes_per_turn && pair.session->wants_bytes() && (taken == 0 || time_left())) {
     const ByteStream::Moved moved = pair.stream->read(buffer);
     if (moved.count > 0) pair.session->on_bytes(loop_.now(), std::span(buffer).first(moved.count));
     if (moved.closed) {
