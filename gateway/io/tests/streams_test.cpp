@@ -220,6 +220,35 @@ TEST_F(StreamsTest, AFloodLeavesTheRestOfTheLoopsTimeToOthers) {
   ::close(ends[1]);
 }
 
+// As the one before: who only comes and goes is a flood, too.
+TEST_F(StreamsTest, WhoComesAndGoesLeavesTheRestOfTheLoopsTimeToOthers) {
+  int came = 0;
+  StreamHub hub(loop_, {.share = 0.2, .burst = 10ms});
+  Listener listener(loop_, [&](int fd, const std::string&) {
+    hub.let_in();
+    ++came;
+    const LocalTime until = monotonic_now() + LocalTime{500us};
+    while (monotonic_now() < until) {
+    }
+    ::close(fd);
+  });
+  ASSERT_EQ(listener.listen_tcp("127.0.0.1:0"), "");
+  hub.add_door(listener.fd());
+  const LocalTime begin = monotonic_now();
+  LocalTime now = begin;
+  std::vector<std::unique_ptr<ByteStream>> guests;
+  while (now < begin + LocalTime{400ms} || came < 20) {
+    if (guests.size() < static_cast<std::size_t>(came) + 3)
+      if (const auto fd = connect_tcp("127.0.0.1", std::to_string(listener.port())))
+        guests.push_back(std::make_unique<SocketStream>(*fd));
+    hub.on_time(now);
+    loop_.wait(std::min(hub.next_deadline(), now + LocalTime{1ms}));
+    now = monotonic_now();
+  }
+  const double bound_s = 0.010 + 0.2 * to_seconds(now - begin) + 0.004;
+  EXPECT_LE(came * 0.0005, bound_s) << came << " in " << to_seconds(now - begin) << " s";
+}
+
 /// A byte for each reading, and never the last one; each takes longer than the turn has for streams.
 class Morsels : public SocketStream {
  public:
