@@ -34,18 +34,14 @@ void ServedMachine::turn() {
   } catch (const ClientError& error) {
     link_.reset();
     say(error.what());
-    try {
-      show({.state = "unreachable", .words = error.what(), .job = shown_.job, .progress = shown_.progress});
-    } catch (const DatabaseError& also) {
-      say(also.what());
-    }
+    show({.state = "unreachable", .words = error.what(), .job = shown_.job, .progress = shown_.progress});
   } catch (const DatabaseError& error) {
     say(error.what());
   }
 }
 
 bool ServedMachine::look_and_act() {
-  const auto job = with_queue([&](Queue& queue) { return queue.job_of(gateway_.machine.name); });
+  const auto job = with(queue_, [&](Queue& queue) { return queue.job_of(gateway_.machine.name); });
   if (!link_) link_ = std::make_unique<GatewayLink>(gateway_.reach);
   const GatewayFacts facts = link_->look(job);
   show({.answers = true, .state = facts.state, .job = job ? job->id : 0, .progress = facts.progress});
@@ -56,9 +52,13 @@ bool ServedMachine::act(Action action, const std::optional<QueuedJob>& job, cons
   switch (action) {
     case Action::kWait:
       return false;
-    case Action::kClaim:
-      return with_queue(
-          [&](Queue& queue) { return queue.claim(gateway_.machine, facts.newest_run).has_value(); });
+    case Action::kClaim: {
+      const auto claimed =
+          with(queue_, [&](Queue& queue) { return queue.claim(gateway_.machine, facts.newest_run); });
+      // Its ticket is new: what was seen of the gateway just now is all that decides, and it refuses a second
+      // start.
+      return claimed && act(decide(claimed, facts, policy_), claimed, facts);
+    }
     case Action::kHome:
       link_->home();
       return false;
@@ -66,7 +66,7 @@ bool ServedMachine::act(Action action, const std::optional<QueuedJob>& job, cons
       link_->cancel();
       return false;
     case Action::kAskOperator:
-      with_queue([&](Queue& queue) { queue.say(gateway_.machine.name, *job, kNobodyKnows); });
+      with(told_.notes, [&](Queue& queue) { queue.say(gateway_.machine.name, *job, kNobodyKnows); });
       return false;
     default:
       act_on_job(action, *job, facts);
@@ -77,11 +77,13 @@ bool ServedMachine::act(Action action, const std::optional<QueuedJob>& job, cons
 void ServedMachine::act_on_job(Action action, const QueuedJob& job, const GatewayFacts& facts) {
   const std::string& name = gateway_.machine.name;
   if (action == Action::kStart) {
-    const std::string text = with_queue([&](Queue& queue) { return queue.text(job); });
-    return link_->start(job, text);
+    const std::string text = with(queue_, [&](Queue& queue) { return queue.text(job); });
+    link_->start(job, text);
+    // A start is answered when the history has it. An answer that is lost: the next look finds it there.
+    return with(told_.notes, [&](Queue& queue) { queue.note_started(name, job); });
   }
   if (action == Action::kUseUp) return link_->use_up(job);
-  with_queue([&](Queue& queue) {
+  with(told_.notes, [&](Queue& queue) {
     if (action == Action::kNoteStarted)
       queue.note_started(name, job);
     else if (action == Action::kNoteEnded)
@@ -101,8 +103,8 @@ void ServedMachine::show(MachineView view) {
                     std::abs(shown_.progress - view.progress) < kProgressStep;
   if (same && now - shown_at_ < kShowAgain) return;
   view.machine = gateway_.machine;
-  if (broker_ != nullptr && !same) broker_->show(view);
-  with_queue([&](Queue& queue) { queue.note_machine(view); });
+  if (told_.broker != nullptr && !same) told_.broker->show(view);
+  told_.views.show(view);
   shown_ = std::move(view);
   shown_at_ = now;
 }
@@ -111,12 +113,15 @@ void run_agent(const AgentOptions& options, const std::atomic<bool>& quit) {
   std::vector<std::unique_ptr<SharedQueue>> queues;
   for (int i = 0; i < std::max(options.connections, 1); ++i)
     queues.push_back(std::make_unique<SharedQueue>(options.database));
+  SharedQueue notes(options.database);
+  ViewWriter views(notes);
   const auto broker = options.broker ? std::make_unique<Broker>(*options.broker) : nullptr;
   std::vector<std::unique_ptr<ServedMachine>> machines;
   machines.reserve(options.gateways.size());
   for (const ServedGateway& gateway : options.gateways)
-    machines.push_back(std::make_unique<ServedMachine>(gateway, *queues[machines.size() % queues.size()],
-                                                       broker.get(), options.policy));
+    machines.push_back(std::make_unique<ServedMachine>(
+        gateway, *queues[machines.size() % queues.size()],
+        Told{.notes = notes, .views = views, .broker = broker.get()}, options.policy));
   std::vector<std::thread> threads;
   threads.reserve(machines.size());
   for (const auto& machine : machines)

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <chrono>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,21 +14,21 @@
 #include "gateway/fleet/gateways_file.hpp"
 #include "gateway/fleet/outward/broker.hpp"
 #include "gateway/fleet/queue.hpp"
+#include "gateway/fleet/view_writer.hpp"
 
 namespace kinebus::fleet {
 
-/// A connection to the queue, for one thread at a time.
-struct SharedQueue {
-  explicit SharedQueue(const std::string& database) : queue(database) {}
-  std::mutex busy;
-  Queue queue;
+/// What the machines of an agent share.
+struct Told {
+  SharedQueue& notes;  ///< for what has happened: nobody waits there for a claim and its disk
+  ViewWriter& views;
+  Broker* broker = nullptr;  ///< nullptr: there is none
 };
 
 class ServedMachine {
  public:
-  /// `broker`: nullptr: there is none.
-  ServedMachine(const ServedGateway& gateway, SharedQueue& queue, Broker* broker, const Policy& policy)
-      : gateway_(gateway), queue_(queue), broker_(broker), policy_(policy) {}
+  ServedMachine(const ServedGateway& gateway, SharedQueue& queue, const Told& told, const Policy& policy)
+      : gateway_(gateway), queue_(queue), told_(told), policy_(policy) {}
 
   /// Looks, and does what is to be done until there is nothing. Never throws for what the outside does.
   void turn();
@@ -37,9 +36,9 @@ class ServedMachine {
  private:
   /// `work(queue)` with the queue to itself.
   template <typename Work>
-  auto with_queue(Work work) {
-    const std::lock_guard lock(queue_.busy);
-    return work(queue_.queue);
+  static auto with(SharedQueue& shared, Work work) {
+    const std::lock_guard lock(shared.busy);
+    return work(shared.queue);
   }
   /// False: there is nothing to be done now.
   bool look_and_act();
@@ -51,7 +50,7 @@ class ServedMachine {
 
   ServedGateway gateway_;
   SharedQueue& queue_;
-  Broker* broker_;
+  Told told_;
   Policy policy_;
   std::unique_ptr<GatewayLink> link_;
   std::string said_;  ///< the last words, so that a long break is told once
@@ -64,7 +63,7 @@ struct AgentOptions {
   std::vector<ServedGateway> gateways{};
   Policy policy{};
   std::chrono::milliseconds period{1000};
-  int connections = 4;
+  int connections = 4;  ///< for looks and claims; one more is for notes
   std::optional<Broker::Options> broker{};
 };
 

@@ -113,14 +113,14 @@ struct BrokerWords {
   Broker::Options options{};
 };
 
-void add_broker(CLI::App& agent, BrokerWords& broker) {
-  agent.add_option(
-      "--broker", broker.address,
-      "Tell this broker of MQTT (HOST[:PORT]) what the machines do: Sparkplug B, and for Home Assistant "
-      "(default: none)");
-  agent.add_option("--broker-user", broker.options.user, "Its user");
-  agent.add_option("--broker-password-file", broker.password_file, "File of the password")
+void add_broker(CLI::App& command, BrokerWords& broker, const char* what_for) {
+  command.add_option("--broker", broker.address, what_for);
+  command.add_option("--broker-user", broker.options.user, "Its user");
+  command.add_option("--broker-password-file", broker.password_file, "File of the password")
       ->check(CLI::ExistingFile);
+}
+
+void add_sparkplug(CLI::App& agent, BrokerWords& broker) {
   agent.add_option("--group", broker.options.group, "Sparkplug's group (default: kinebus)");
   agent.add_option("--node", broker.options.node, "Sparkplug's name of this agent (default: the computer's)");
 }
@@ -159,7 +159,11 @@ void add_agent(CLI::App& app, const Where& where) {
       ->check(CLI::Range(0.05, 3600.0));
   agent->add_option("--connections", options->connections, "To the database (default: 4)")
       ->check(CLI::Range(1, 64));
-  add_broker(*agent, *broker);
+  add_broker(
+      *agent, *broker,
+      "Tell this broker of MQTT (HOST[:PORT]) what the machines do: Sparkplug B, and for Home Assistant "
+      "(default: none)");
+  add_sparkplug(*agent, *broker);
   agent->callback([=] {
     options->broker = broker_of(*broker);
     auto gateways = read_gateways(read_file(*file));
@@ -178,21 +182,14 @@ void add_serve(CLI::App& app, const Where& where) {
       "Show the wall of machines to browsers of this computer, and its numbers to Prometheus (/metrics)");
   auto address = std::make_shared<std::string>("127.0.0.1:7450");
   serve->add_option("--http", *address, "ADDRESS:PORT (default: 127.0.0.1:7450)");
-  auto broker = std::make_shared<std::string>();
-  serve->add_option(
-      "--broker", *broker,
-      "Tell at /metrics, too, whether this broker of MQTT (HOST[:PORT]) can be reached (default: none)");
+  auto broker = std::make_shared<BrokerWords>();
+  add_broker(*serve, *broker,
+             "Tell at /metrics, too, whether this broker of MQTT (HOST[:PORT]) answers (default: none)");
   serve->callback([=] {
-    Broker::Options options;
-    if (!broker->empty())
-      if (const std::string wrong = read_broker_address(*broker, options); !wrong.empty())
-        throw std::runtime_error("--broker: " + wrong);
+    broker->options.node = "wall";  // says nothing, and so needs no name of its own
+    const auto asked = broker_of(*broker);
     quit_on_signals();
-    serve_wall({.database = *where,
-                .address = *address,
-                .broker_host = broker->empty() ? std::string() : options.host,
-                .broker_port = options.port},
-               asked_to_end);
+    serve_wall({.database = *where, .address = *address, .broker = asked}, asked_to_end);
   });
 }
 

@@ -1,5 +1,8 @@
 #include "gateway/fleet/queue.hpp"
 
+#include <cmath>
+#include <nlohmann/json.hpp>
+
 #include "gateway/fleet/schema.hpp"
 #include "protocol/joblink/job_hash.hpp"
 #include "protocol/joblink/sha256.hpp"
@@ -13,12 +16,36 @@ WHERE id = (
   SELECT id FROM jobs WHERE state = 'queued' AND (kind = '' OR kind = $2) AND (material = '' OR material = $3)
     AND (nozzle_mm = 0 OR abs(nozzle_mm - $4::double precision) < 0.001)
   ORDER BY priority DESC, id LIMIT 1 FOR UPDATE SKIP LOCKED)
-RETURNING id
+RETURNING id, name, file, (SELECT text_hash FROM files WHERE hash = file), attempt, after_run, state, cancel
 )sql";
 
 /// The rest of each statement that speaks for one start: another agent may have done it, or an operator.
 constexpr const char* kThisStart =
     " changed = now() WHERE id = $1 AND gateway = $2 AND attempt = $3 AND state IN ('assigned', 'started')";
+/// Of what the gateway's history says: a database that loses it in a crash is told again, so nobody waits for
+/// its disk. The next claim of this gateway does, and what was written before it is on the disk with it.
+constexpr const char* kToldAgain = " AND set_config('synchronous_commit', 'off', true) = 'off'";
+/// Once for each ticket, whatever of its run was noted first.
+constexpr const char* kBegun = " begun = begun + CASE state WHEN 'assigned' THEN 1 ELSE 0 END,";
+
+/// Ordered by name: two agents that write the same machines must not wait for each other.
+constexpr const char* kNoteMachines = R"sql(
+INSERT INTO machines
+SELECT name, kind, material, nozzle_mm, answers, state, words, job, progress, now()
+FROM jsonb_to_recordset($1::jsonb) AS view(name text, kind text, material text, nozzle_mm double precision, answers boolean,
+  state text, words text, job bigint, progress double precision)
+ORDER BY name
+ON CONFLICT (name) DO UPDATE SET
+  kind = excluded.kind, material = excluded.material, nozzle_mm = excluded.nozzle_mm, answers = excluded.answers,
+  state = excluded.state, words = excluded.words, job = excluded.job, progress = excluded.progress, seen = excluded.seen
+)sql";
+
+/// A gateway's words: a text of PostgreSQL has no zero byte, and one machine must not stand in the others'
+/// way.
+std::string plain(std::string words) {
+  std::erase(words, '\0');
+  return words;
+}
 
 std::vector<Parameter> start(const QueuedJob& job, const std::string& gateway) {
   return {job.id, gateway, job.attempt};
@@ -126,19 +153,15 @@ Queue::Totals Queue::totals() {
 }
 
 Queue::Numbers Queue::numbers() {
-  // A job that was cancelled before it began has left its gateway (note_not_run).
   const Rows rows = database_.run(
-      "SELECT state, gateway <> '', count(*), extract(epoch FROM now() - min(added))::float8 FROM jobs"
-      " GROUP BY 1, 2");
+      "SELECT state, count(*), sum(begun), extract(epoch FROM now() - min(added))::float8 FROM jobs GROUP BY "
+      "1");
   Numbers numbers;
   for (int row = 0; row < rows.count(); ++row) {
     const std::string state = rows.text(row, 0);
-    const std::int64_t count = rows.integer(row, 2);
-    numbers.jobs[state] += count;
-    if (state == "queued")
-      numbers.oldest_waiting_s = rows.real(row, 3);
-    else if (state != "assigned" && state != "refused" && rows.truth(row, 1))
-      numbers.begun += count;
+    numbers.jobs[state] = rows.integer(row, 1);
+    numbers.begun += rows.integer(row, 2);
+    if (state == "queued") numbers.oldest_waiting_s = rows.real(row, 3);
   }
   return numbers;
 }
@@ -156,15 +179,16 @@ std::optional<QueuedJob> Queue::claim(const Machine& machine, std::uint64_t newe
   try {
     const Rows claimed = database_.run(kClaim, {machine.name, machine.kind, machine.material,
                                                 machine.nozzle_mm, static_cast<std::int64_t>(newest_run)});
-    if (claimed.count() == 0) return std::nullopt;
+    if (claimed.count() > 0) return job_in(claimed);
   } catch (const NotUnique&) {
     // Another agent of this gateway was faster.
   }
-  return job_of(machine.name);
+  return std::nullopt;
 }
 
 void Queue::note_started(const std::string& gateway, const QueuedJob& job) {
-  database_.run(std::string("UPDATE jobs SET state = 'started',") + kThisStart, start(job, gateway));
+  database_.run(std::string("UPDATE jobs SET state = 'started',") + kBegun + kThisStart + kToldAgain,
+                start(job, gateway));
 }
 
 void Queue::note_ended(const std::string& gateway, const QueuedJob& job, Result result,
@@ -172,7 +196,8 @@ void Queue::note_ended(const std::string& gateway, const QueuedJob& job, Result 
   auto parameters = start(job, gateway);
   parameters.emplace_back(to_word(result));
   parameters.emplace_back(words);
-  database_.run(std::string("UPDATE jobs SET state = $4, words = $5,") + kThisStart, parameters);
+  database_.run(std::string("UPDATE jobs SET state = $4, words = $5,") + kBegun + kThisStart + kToldAgain,
+                parameters);
 }
 
 void Queue::note_not_run(const std::string& gateway, const QueuedJob& job) {
@@ -203,15 +228,20 @@ std::string Queue::text(const QueuedJob& job) {
   return text;
 }
 
-void Queue::note_machine(const MachineView& view) {
-  database_.run(
-      "INSERT INTO machines VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, now()) ON CONFLICT (name) DO UPDATE "
-      "SET"
-      " kind = excluded.kind, material = excluded.material, nozzle_mm = excluded.nozzle_mm,"
-      " answers = excluded.answers, state = excluded.state, words = excluded.words, job = excluded.job,"
-      " progress = excluded.progress, seen = excluded.seen",
-      {view.machine.name, view.machine.kind, view.machine.material, view.machine.nozzle_mm, view.answers,
-       view.state, view.words, view.job, view.progress});
+void Queue::note_machines(const std::vector<MachineView>& views) {
+  using nlohmann::json;
+  json all = json::array();
+  for (const MachineView& view : views)
+    all.push_back({{"name", view.machine.name},
+                   {"kind", view.machine.kind},
+                   {"material", view.machine.material},
+                   {"nozzle_mm", view.machine.nozzle_mm},
+                   {"answers", view.answers},
+                   {"state", plain(view.state)},
+                   {"words", plain(view.words)},
+                   {"job", view.job},
+                   {"progress", std::isfinite(view.progress) ? view.progress : 0}});
+  database_.run(kNoteMachines, {all.dump(-1, ' ', false, json::error_handler_t::replace)});
 }
 
 }  // namespace kinebus::fleet

@@ -41,7 +41,7 @@ class Queue {
   /// What a monitor asks for: of all jobs, and none for itself.
   struct Numbers {
     std::map<std::string, std::int64_t> jobs{};  ///< by state, the ones that there are
-    std::int64_t begun = 0;                      ///< jobs that a machine has begun
+    std::int64_t begun = 0;                      ///< starts that a gateway's history has: never fewer
     double oldest_waiting_s = 0;                 ///< since it was added; 0: none waits
   };
 
@@ -66,7 +66,8 @@ class Queue {
   // For agents.
   /// Job of this gateway that is not over.
   std::optional<QueuedJob> job_of(const std::string& gateway);
-  /// The first that fits, if this gateway has none. `newest_run`: of the gateway's history.
+  /// The first that fits, if this gateway has none; nothing, too, where another agent of it was faster.
+  /// `newest_run`: of the gateway's history.
   std::optional<QueuedJob> claim(const Machine& machine, std::uint64_t newest_run);
   void note_started(const std::string& gateway, const QueuedJob& job);
   void note_ended(const std::string& gateway, const QueuedJob& job, Result result, const std::string& words);
@@ -76,7 +77,8 @@ class Queue {
   /// Words for people who look at the job.
   void say(const std::string& gateway, const QueuedJob& job, const std::string& words);
   std::string text(const QueuedJob& job);
-  void note_machine(const MachineView& view);
+  /// As one statement.
+  void note_machines(const std::vector<MachineView>& views);
 
  private:
   Database database_;

@@ -22,11 +22,20 @@ CREATE TABLE IF NOT EXISTS jobs(
   attempt int NOT NULL DEFAULT 0,
   after_run bigint NOT NULL DEFAULT 0,
   cancel boolean NOT NULL DEFAULT false,
+  begun int NOT NULL DEFAULT 0,
   words text NOT NULL DEFAULT '',
   added timestamptz NOT NULL DEFAULT now(),
   changed timestamptz NOT NULL DEFAULT now(),
   CHECK ((gateway = '') <= (state IN ('queued', 'cancelled')))
 );
+-- A queue from before starts were counted: what can be told of them.
+DO $$ BEGIN
+  IF NOT EXISTS (SELECT FROM information_schema.columns WHERE table_name = 'jobs' AND column_name = 'begun'
+                   AND table_schema = current_schema()) THEN
+    ALTER TABLE jobs ADD COLUMN begun int NOT NULL DEFAULT 0;
+    UPDATE jobs SET begun = 1 WHERE gateway <> '' AND state NOT IN ('queued', 'assigned');
+  END IF;
+END $$;
 CREATE UNIQUE INDEX IF NOT EXISTS one_job_a_gateway ON jobs(gateway) WHERE state IN ('assigned', 'started');
 CREATE INDEX IF NOT EXISTS jobs_waiting ON jobs(priority DESC, id) WHERE state = 'queued';
 CREATE INDEX IF NOT EXISTS jobs_by_state ON jobs(state);

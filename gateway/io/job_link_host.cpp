@@ -66,6 +66,7 @@ JobLinkHost::JobLinkHost(EventLoop& loop, StreamHub& hub, JobLinkServer& server)
                    {.transport = std::move(who), .token = {}, .peer = std::move(peer)});
              }),
       tcp_(loop, [this](int fd, std::string who) {
+        hub_.let_in();
         std::string peer = peer_of(fd);
         add(tls_->open(fd),
             {.transport = std::move(who), .token = token_, .peer = std::move(peer), .remote = true});
@@ -82,7 +83,9 @@ std::string JobLinkHost::listen_tcp(const std::string& address, const std::files
   const auto token = token_of(credentials / "token");
   if (!token) return token.error();
   token_ = *token;
-  return tcp_.listen_tcp(address);
+  std::string wrong = tcp_.listen_tcp(address);
+  if (wrong.empty()) hub_.add_door(tcp_.fd());
+  return wrong;
 }
 
 void JobLinkHost::on_time(LocalTime now) {

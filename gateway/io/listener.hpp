@@ -28,6 +28,8 @@ class Listener {
   bool taken() const { return taken_; }
   /// The port in use (TCP).
   int port() const;
+  /// Where the loop waits for clients; -1: it does not listen.
+  int fd() const { return fd_; }
   /// Only programs of this computer can connect (TCP).
   bool loopback() const;
 

@@ -108,7 +108,8 @@ void StreamHub::on_ready(Pair& pair, std::uint32_t events) {
   if (!time_left()) return;
   std::array<std::uint8_t, 65'536> buffer;
   std::size_t taken = 0;
-  while (taken < options_.bytes_per_turn && pair.session->wants_bytes()) {
+  // Bytes may come in morsels, each a record of its own: those of a turn are bounded by its time, too.
+  while (taken < options_.bytes_per_turn && pair.session->wants_bytes() && (taken == 0 || time_left())) {
     const ByteStream::Moved moved = pair.stream->read(buffer);
     if (moved.count > 0) pair.session->on_bytes(loop_.now(), std::span(buffer).first(moved.count));
     if (moved.closed) {
@@ -155,12 +156,17 @@ void StreamHub::pay(LocalTime now) {
   if (credit_ >= LocalTime{0}) return;
   const LocalTime rest{static_cast<std::int64_t>(static_cast<double>(-credit_.count()) / options_.share)};
   rest_until_ = now + std::min(rest, kMostRest);
-  loop_.change(epoll_, 0);
+  watch_all(0);
+}
+
+void StreamHub::watch_all(std::uint32_t events) {
+  loop_.change(epoll_, events);
+  for (const int door : doors_) loop_.change(door, events);
 }
 
 void StreamHub::on_time(LocalTime now) {
   if (now < rest_until_) return;
-  if (rest_until_ != LocalTime{0}) loop_.change(epoll_, EPOLLIN);
+  if (rest_until_ != LocalTime{0}) watch_all(EPOLLIN);
   rest_until_ = LocalTime{0};
   // Sessions may make new streams' sessions speak, and close each other: the list is walked by index.
   const std::size_t count = pairs_.size();

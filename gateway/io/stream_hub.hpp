@@ -41,6 +41,11 @@ class StreamHub : public DaemonPart {
   /// False: too many streams, both are destroyed.
   bool add(std::unique_ptr<ByteStream> stream, std::unique_ptr<ByteSession> session);
 
+  /// A listener's fd in the loop: nobody is let in there either while streams rest.
+  void add_door(int fd) { doors_.push_back(fd); }
+  /// Somebody is let in: what follows, up to add(), is streams' work, too.
+  void let_in() { static_cast<void>(time_left()); }
+
   /// Lets every session see the time, sends what waits, and ends what is to end. Called once a turn of the
   /// loop.
   void on_event(const MachineEvent&) override {}
@@ -54,6 +59,7 @@ class StreamHub : public DaemonPart {
   void on_some_ready();
   void on_ready(Pair& pair, std::uint32_t events);
   void pay(LocalTime now);
+  void watch_all(std::uint32_t events);
   void serve(Pair& pair, LocalTime now);
   bool time_left();
   void send(Pair& pair);
@@ -63,6 +69,7 @@ class StreamHub : public DaemonPart {
   Options options_;
   int epoll_;  ///< of all streams: the loop looks at this one, and not while they rest
   std::vector<std::unique_ptr<Pair>> pairs_;
+  std::vector<int> doors_;
   std::size_t first_ = 0;                    ///< who is served first in the next turn
   LocalTime work_until_ = LocalTime::max();  ///< of this turn; max: it has not begun
   LocalTime credit_, paid_{0};               ///< what streams may use now; when that was counted

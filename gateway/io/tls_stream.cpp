@@ -1,16 +1,19 @@
 #include "gateway/io/tls_stream.hpp"
 
 #include <fcntl.h>
+#include <openssl/bio.h>
 #include <openssl/err.h>
 #include <openssl/evp.h>
 #include <openssl/pem.h>
 #include <openssl/ssl.h>
 #include <openssl/x509.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdio>
 #include <utility>
 
@@ -21,6 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr int kValidYears = 30;
+/// Records may carry nothing for the session (key updates, a hello in pieces), and OpenSSL goes on to the
+/// next one by itself, as long as any comes. A record takes two of these, a handshake some ten.
+constexpr int kReadsAtOnce = 32;
 
 std::string openssl_words(const std::string& what) {
   std::array<char, 256> text{};
@@ -72,11 +78,56 @@ std::string make_identity(const fs::path& certificate_path, const fs::path& key_
   return {};
 }
 
+/// The socket under TLS: reads so often at once, then says that nothing has come.
+struct BoundedSocket {
+  int fd = -1;
+  int reads_left = 0;
+
+  static BoundedSocket& of(BIO* bio) { return *static_cast<BoundedSocket*>(BIO_get_data(bio)); }
+  static int read(BIO* bio, char* into, int size) {
+    BoundedSocket& socket = of(bio);
+    BIO_clear_retry_flags(bio);
+    ssize_t count = -1;
+    errno = EAGAIN;
+    if (socket.reads_left > 0) {
+      --socket.reads_left;
+      count = ::recv(socket.fd, into, static_cast<std::size_t>(size), 0);
+    }
+    if (count < 0 && BIO_sock_should_retry(-1) != 0) BIO_set_retry_read(bio);
+    if (count == 0) BIO_set_flags(bio, BIO_FLAGS_IN_EOF);
+    return static_cast<int>(count);
+  }
+  static int write(BIO* bio, const char* from, int size) {
+    BIO_clear_retry_flags(bio);
+    const ssize_t count = ::send(of(bio).fd, from, static_cast<std::size_t>(size), MSG_NOSIGNAL);
+    if (count < 0 && BIO_sock_should_retry(-1) != 0) BIO_set_retry_write(bio);
+    return static_cast<int>(count);
+  }
+  static long control(BIO* bio, int what, long, void*) {
+    if (what == BIO_CTRL_EOF) return BIO_test_flags(bio, BIO_FLAGS_IN_EOF) != 0 ? 1 : 0;
+    return what == BIO_CTRL_FLUSH ? 1 : 0;
+  }
+  static const BIO_METHOD* method() {
+    static const std::unique_ptr<BIO_METHOD, void (*)(BIO_METHOD*)> kMethod = [] {
+      std::unique_ptr<BIO_METHOD, void (*)(BIO_METHOD*)> made(
+          BIO_meth_new(BIO_get_new_index() | BIO_TYPE_SOURCE_SINK, "bounded socket"), &BIO_meth_free);
+      BIO_meth_set_read(made.get(), &read);
+      BIO_meth_set_write(made.get(), &write);
+      BIO_meth_set_ctrl(made.get(), &control);
+      return made;
+    }();
+    return kMethod.get();
+  }
+};
+
 class TlsStream : public ByteStream {
  public:
   TlsStream(std::shared_ptr<SSL_CTX> context, int fd, bool server)
-      : context_(std::move(context)), fd_(fd), ssl_(SSL_new(context_.get())) {
-    SSL_set_fd(ssl_, fd);
+      : context_(std::move(context)), socket_{.fd = fd}, ssl_(SSL_new(context_.get())) {
+    BIO* const bio = BIO_new(BoundedSocket::method());
+    BIO_set_data(bio, &socket_);
+    BIO_set_init(bio, 1);
+    SSL_set_bio(ssl_, bio, bio);
     if (server)
       SSL_set_accept_state(ssl_);
     else
@@ -87,12 +138,12 @@ class TlsStream : public ByteStream {
     if (!failed_) SSL_shutdown(ssl_);
     ERR_clear_error();
     SSL_free(ssl_);
-    ::close(fd_);
+    ::close(socket_.fd);
   }
   TlsStream(const TlsStream&) = delete;
   TlsStream& operator=(const TlsStream&) = delete;
 
-  int fd() const override { return fd_; }
+  int fd() const override { return socket_.fd; }
   std::uint32_t interest(bool output_waits) const override {
     // TLS may need to write before it can read (hand-shake, key update), and the other way round.
     std::uint32_t bits = EPOLLIN;
@@ -101,6 +152,7 @@ class TlsStream : public ByteStream {
   }
   Moved read(std::span<std::uint8_t> buffer) override {
     std::size_t count = 0;
+    socket_.reads_left = kReadsAtOnce;
     const int result = SSL_read_ex(ssl_, buffer.data(), buffer.size(), &count);
     const int error = result == 1 ? SSL_ERROR_NONE : SSL_get_error(ssl_, result);
     read_wants_write_ = error == SSL_ERROR_WANT_WRITE;
@@ -108,6 +160,7 @@ class TlsStream : public ByteStream {
   }
   Moved write(std::span<const std::uint8_t> bytes) override {
     std::size_t count = 0;
+    socket_.reads_left = kReadsAtOnce;
     const int result = SSL_write_ex(ssl_, bytes.data(), bytes.size(), &count);
     const int error = result == 1 ? SSL_ERROR_NONE : SSL_get_error(ssl_, result);
     write_wants_read_ = error == SSL_ERROR_WANT_READ;
@@ -129,7 +182,7 @@ class TlsStream : public ByteStream {
   }
 
   std::shared_ptr<SSL_CTX> context_;  ///< what it expects of the other side lives with it
-  int fd_;
+  BoundedSocket socket_;
   SSL* ssl_;
   std::string reason_;
   bool read_wants_write_ = false, write_wants_read_ = false, failed_ = false;

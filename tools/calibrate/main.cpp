@@ -201,6 +201,7 @@ void run(int argc, char** argv, int& code) {
   Arguments a;
   CLI::App app("Finds what a machine's measurements say about it, and writes it into its machine file");
   app.require_subcommand(1);
+  app.set_version_flag("--version", KINEBUS_VERSION);
   const auto with_machine = [&](CLI::App* c) {
     c->add_option("--machine", a.machine, "Machine file")->required()->check(CLI::ExistingFile);
   };

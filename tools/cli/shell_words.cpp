@@ -25,6 +25,21 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App*) { return true; });
 }
 
+struct Command {
+  std::string path;  ///< as it is typed: "users key"
+  const CLI::App* app;
+};
+
+/// All of them, each before those within it.
+std::vector<Command> all_commands_of(const CLI::App& app, const std::string& path = {}) {
+  std::vector<Command> all;
+  for (const CLI::App* command : commands_of(app)) {
+    all.push_back({path.empty() ? command->get_name() : path + " " + command->get_name(), command});
+    for (Command& within : all_commands_of(*command, all.back().path)) all.push_back(std::move(within));
+  }
+  return all;
+}
+
 std::vector<const CLI::Option*> options_of(const CLI::App& app) {
   std::vector<const CLI::Option*> options = app.get_options();
   std::erase_if(options, [](const CLI::Option* o) { return o->get_lnames().empty(); });
@@ -72,21 +87,28 @@ std::string roff_options(const CLI::App& app, bool with_help) {
 
 std::string bash_completion(const CLI::App& app) {
   const std::string& name = app.get_name();
-  std::string valued, cases;
+  std::string valued, cases, paths;
   for (const CLI::Option* option : options_of(app))
     if (takes_value(*option)) valued += (valued.empty() ? "--" : "|--") + option->get_lnames()[0];
-  for (const CLI::App* command : commands_of(app))
-    cases += fmt::format("    {}) words={} ;;\n", command->get_name(),
-                         quoted(names_of(*command) + " " + names_of(app).substr(names_of(app).find("--"))));
+  for (const Command& command : all_commands_of(app)) {
+    paths += (paths.empty() ? "" : "|") + quoted(command.path);
+    cases +=
+        fmt::format("    {}) words={} ;;\n", quoted(command.path),
+                    quoted(names_of(*command.app) + " " + names_of(app).substr(names_of(app).find("--"))));
+  }
   return fmt::format(
       "# bash completion for {0}\n"
       "_{0}() {{\n"
-      "  local current=${{COMP_WORDS[COMP_CWORD]}} command= words= i\n"
+      "  local current=${{COMP_WORDS[COMP_CWORD]}} command= longer= words= i\n"
       "  for ((i = 1; i < COMP_CWORD; ++i)); do\n"
       "    case ${{COMP_WORDS[i]}} in\n"
       "    {1}) ((++i)) ;;\n"
       "    -*) ;;\n"
-      "    *) command=${{COMP_WORDS[i]}}; break ;;\n"
+      "    *) longer=${{command:+$command }}${{COMP_WORDS[i]}}\n"
+      "      case $longer in\n"
+      "      {4}) command=$longer ;;\n"
+      "      *) command=${{command:-$longer}}; break ;;\n"
+      "      esac ;;\n"
       "    esac\n"
       "  done\n"
       "  case $command in\n"
@@ -96,7 +118,7 @@ std::string bash_completion(const CLI::App& app) {
       "  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\")\n"
       "}}\n"
       "complete -o default -F _{0} {0}\n",
-      name, valued, quoted(names_of(app)), cases);
+      name, valued, quoted(names_of(app)), cases, paths);
 }
 
 std::string zsh_completion(const CLI::App& app) {
@@ -105,14 +127,20 @@ std::string zsh_completion(const CLI::App& app) {
     return quoted(fmt::format("--{}[{}]{}", option.get_lnames()[0], replaced(help, ":", "\\:"),
                               takes_value(option) ? ":value:_files" : ""));
   };
-  std::string commands, cases, common;
+  std::string commands, cases, common, paths;
   for (const CLI::Option* option : options_of(app)) common += " " + spec(*option);
   for (const CLI::App* command : commands_of(app)) {
     commands +=
         "    " + quoted(command->get_name() + ":" + replaced(command->get_description(), ":", "\\:")) + "\n";
-    std::string arguments;
-    for (const CLI::Option* option : options_of(*command)) arguments += " " + spec(*option);
-    cases += fmt::format("      {}) _arguments{} '*:file:_files' ;;\n", command->get_name(), arguments);
+  }
+  for (const Command& command : all_commands_of(app)) {
+    std::string arguments, within;
+    for (const CLI::Option* option : options_of(*command.app)) arguments += " " + spec(*option);
+    for (const CLI::App* next : commands_of(*command.app))
+      within += (within.empty() ? "" : " ") + next->get_name();
+    const std::string rest = within.empty() ? "'*:file:_files'" : quoted("1:command:(" + within + ")");
+    cases += fmt::format("      {}) _arguments{} {} ;;\n", quoted(command.path), arguments, rest);
+    paths += (paths.empty() ? "" : "|") + quoted(command.path);
   }
   return fmt::format(
       "#compdef {0}\n"
@@ -123,11 +151,18 @@ std::string zsh_completion(const CLI::App& app) {
       "  case $state in\n"
       "  command) _describe command commands ;;\n"
       "  argument)\n"
-      "    case $words[1] in\n{3}    esac ;;\n"
+      "    local known=$words[1]\n"
+      "    while (( CURRENT > 2 )); do\n"
+      "      case \"$known $words[2]\" in\n"
+      "      {4}) known+=\" $words[2]\"; shift words; (( CURRENT-- )) ;;\n"
+      "      *) break ;;\n"
+      "      esac\n"
+      "    done\n"
+      "    case $known in\n{3}    esac ;;\n"
       "  esac\n"
       "}}\n"
       "_{0} \"$@\"\n",
-      app.get_name(), commands, common, cases);
+      app.get_name(), commands, common, cases, paths);
 }
 
 std::string fish_completion(const CLI::App& app) {
@@ -141,9 +176,16 @@ std::string fish_completion(const CLI::App& app) {
   for (const CLI::App* command : commands_of(app)) {
     text += fmt::format("complete -c {} -n __fish_use_subcommand -a {} -d {}\n", name, command->get_name(),
                         quoted(command->get_description()));
-    for (const CLI::Option* option : options_of(*command))
-      if (option->get_lnames()[0] != "help")
-        add(*option, fmt::format(" -n '__fish_seen_subcommand_from {}'", command->get_name()));
+  }
+  for (const Command& command : all_commands_of(app)) {
+    std::string seen;
+    for (const std::string& word : CLI::detail::split(command.path, ' '))
+      seen += (seen.empty() ? "" : "; and ") + ("__fish_seen_subcommand_from " + word);
+    for (const CLI::App* next : commands_of(*command.app))
+      text += fmt::format("complete -c {} -n '{}' -a {} -d {}\n", name, seen, next->get_name(),
+                          quoted(next->get_description()));
+    for (const CLI::Option* option : options_of(*command.app))
+      if (option->get_lnames()[0] != "help") add(*option, fmt::format(" -n '{}'", seen));
   }
   return text;
 }
@@ -156,9 +198,9 @@ std::string man_page(const CLI::App& app, const std::string& version) {
       upper(name), name, version, name, roff(about.substr(about.find(": ") + 2)), name);
   text += ".SH OPTIONS\nThey may stand before or behind the command.\n" + roff_options(app, true) +
           ".SH COMMANDS\n";
-  for (const CLI::App* command : commands_of(app))
-    text += fmt::format(".SS {}\n{}.\n{}", roff(command->get_name()), roff(command->get_description()),
-                        roff_options(*command, false));
+  for (const Command& command : all_commands_of(app))
+    text += fmt::format(".SS {}\n{}.\n{}", roff(command.path), roff(command.app->get_description()),
+                        roff_options(*command.app, false));
   text +=
       ".SH EXIT STATUS\n0: done. 1: refused, or the machine did not come to where it should. 2: wrong "
       "arguments.\n";

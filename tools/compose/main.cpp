@@ -287,6 +287,7 @@ int run(int argc, char** argv) {
       "kinebus-compose: cuts a part so that every piece prints without support, slices the pieces with\n"
       "PrusaSlicer in their own tilted frames, and joins them into one verified five-axis job.");
   app.require_subcommand(1);
+  app.set_version_flag("--version", KINEBUS_VERSION);
   Arguments arguments;
   int exit_code = 0;
   auto* part = app.add_subcommand("part", "A mesh to a job");

@@ -265,6 +265,7 @@ int main(int argc, char** argv) {
   return kinebus::guarded_main("kinebus-workspace", [&] {
     kinebus::workspace::Arguments a;
     CLI::App app("What a machine can reach: volume, cylinders, dexterity, picture and mesh");
+    app.set_version_flag("--version", KINEBUS_VERSION);
     app.add_option("--machine", a.machine,
                    "Machine file, or the name of a shipped one; without it the default machine M1");
     app.add_option("--step", a.step_mm, "mm between places (default 4)")->check(CLI::Range(0.2, 50.0));

@@ -22,6 +22,10 @@ const states = [...fs.readFileSync(path.join(sources, 'status/state.cpp'), 'utf8
 const said = [...fs.readFileSync(path.join(sources, 'web/page/words.js'), 'utf8').matchAll(/STATE_\w+: '([^']*)'/g)].map((found) => found[1]);
 const kSaid = { en: states, tr: said.slice(states.length, 2 * states.length), fa: said.slice(2 * states.length) };
 const kHeadings = { en: 'machines', tr: 'makine', fa: 'ماشین' };
+const kDatabase = { en: 'database: connection refused', tr: 'veritabanı yanıt vermiyor: ', fa: 'پایگاه داده پاسخ نمی‌دهد: ' };
+const kTitles = {
+  tr: [/^orada .* yok: \/run\/a\.sock$/, /^kinebusd bağlantıyı kapattı$/, /^kinebusd yanıt vermiyor$/, /^10\.0\.0\.7:7120 adresine/, /^aracı .*: the gateway speaks/],
+  fa: [/: \/run\/a\.sock$/, /^kinebusd پیوند را بست$/, /^kinebusd پاسخ نمی‌دهد$/, /10\.0\.0\.7:7120/, /^کارگزار .*: the gateway speaks/] };
 fs.mkdirSync(shots, { recursive: true });
 
 const demo = spawn(path.join(build, 'bin/kinebus-fleet'), ['demo', '--machines', '6', '--jobs', '9', '--http', '127.0.0.1:0'], { stdio: ['ignore', 'pipe', 'inherit'] });
@@ -65,6 +69,21 @@ try {
         await page.waitForFunction((name) => document.querySelector('#wall li:last-child b')?.textContent === name, machines.at(-1).name);
         const shown = await page.locator('#wall li span').allInnerTexts();
         if (shown.join() !== kSaid[language].join()) throw new Error(`${what}: states are "${shown}", expected "${kSaid[language]}"`);
+        // What a machine's tooltip says, and what a database that is gone leaves to say.
+        const told = ['no daemon answers at /run/a.sock (connection refused); start one, for example: kinebusd --bus inproc', 'the daemon is gone: reset',
+          'the daemon does not answer', '10.0.0.7:7120: timed out', 'the gateway speaks version 9'];
+        const away = told.map((words, i) => ({ name: `m${10 + i}`, state: 'unreachable', answers: false, words, job: 0, progress: 0, seen_s: 1 }));
+        await page.route('**/fleet.json', (route) => route.fulfill({ json: { totals, machines: away } }));
+        await page.waitForFunction(() => document.querySelectorAll('#wall li').length === 5);
+        const titles = await page.locator('#wall li').evaluateAll((tiles) => tiles.map((tile) => tile.title));
+        if (language === 'en' ? titles.join() !== told.join() : titles.some((title, i) => !kTitles[language][i].test(title)))
+          throw new Error(`${what}: tooltips are ${JSON.stringify(titles)}`);
+        await page.route('**/fleet.json', (route) => route.fulfill({ json: { error: 'database: connection refused' } }));
+        await page.waitForFunction(() => document.querySelector('#totals').textContent.includes('connection refused'));
+        const error = await page.locator('#totals').innerText();
+        if (!error.startsWith(kDatabase[language])) throw new Error(`${what}: a database that is gone is told as "${error}"`);
+        const aloud = await page.evaluate(() => window.axe.run(document));
+        if (aloud.violations.length > 0) throw new Error(`${what}: axe: ${JSON.stringify(aloud.violations.map((v) => v.id))}`);
         await context.close();
       }
     }

@@ -1,7 +1,10 @@
 #include "gateway/fleet/demo/demo.hpp"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
+#include <netinet/in.h>
 #include <pwd.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -79,7 +82,23 @@ std::string start_database(const fs::path& folder, Children& children) {
   return "host=" + place.string() + " user=fleet dbname=postgres";
 }
 
-/// Nothing: there is none on this computer.
+/// Of this computer; nothing: it is taken. 0: one that is free.
+std::optional<int> take_port(int port) {
+  const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  socklen_t size = sizeof address;
+  const int reuse = 1;
+  ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &reuse, sizeof reuse);
+  const bool free = ::bind(fd, reinterpret_cast<sockaddr*>(&address), size) == 0 &&
+                    ::getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) == 0;
+  ::close(fd);
+  return free ? std::optional<int>(ntohs(address.sin_port)) : std::nullopt;
+}
+
+/// Nothing: there is none on this computer. Another broker may have the port that everybody knows.
 std::optional<Broker::Options> start_broker(const fs::path& folder, Children& children) {
   const fs::path program = "/usr/sbin/mosquitto";
   if (!fs::exists(program)) {
@@ -87,10 +106,12 @@ std::optional<Broker::Options> start_broker(const fs::path& folder, Children& ch
     return std::nullopt;
   }
   Broker::Options options{.node = "demo"};
+  if (!take_port(options.port)) options.port = take_port(0).value_or(options.port);
   std::ofstream(folder / "mosquitto.conf")
       << "listener " << options.port << " 127.0.0.1\nallow_anonymous true\n";
   children.push_back(std::make_unique<ChildProcess>(
       std::vector<std::string>{program, "-c", folder / "mosquitto.conf"}, folder / "broker.log"));
+  fmt::print("broker of MQTT: 127.0.0.1:{}\n", options.port);
   return options;
 }
 

@@ -1,52 +1,61 @@
 #include "gateway/fleet/wall/broker_probe.hpp"
 
-#include <netdb.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
+#include <fmt/format.h>
+#include <mosquitto.h>
 
-#include <cerrno>
 #include <chrono>
-#include <memory>
+#include <new>
 #include <utility>
 
 namespace kinebus::fleet {
 namespace {
 
-constexpr int kWithinMs = 2000;
-constexpr auto kPeriod = std::chrono::seconds{5};
-constexpr auto kTurn = std::chrono::milliseconds{100};
-
-bool takes(const addrinfo& address) {
-  const int fd =
-      ::socket(address.ai_family, address.ai_socktype | SOCK_CLOEXEC | SOCK_NONBLOCK, address.ai_protocol);
-  if (fd < 0) return false;
-  int error = 0;
-  if (::connect(fd, address.ai_addr, address.ai_addrlen) != 0) error = errno;
-  if (error == EINPROGRESS) {
-    pollfd waits{.fd = fd, .events = POLLOUT, .revents = 0};
-    socklen_t size = sizeof error;
-    if (::poll(&waits, 1, kWithinMs) == 1) ::getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &size);
-  }
-  ::close(fd);
-  return error == 0;
-}
-
-bool is_reached(const std::string& host, const std::string& port) {
-  addrinfo hints{};
-  hints.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  if (::getaddrinfo(host.c_str(), port.c_str(), &hints, &found) != 0) return false;
-  const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owner(found, &::freeaddrinfo);
-  for (const addrinfo* a = found; a != nullptr; a = a->ai_next)
-    if (takes(*a)) return true;
-  return false;
-}
+constexpr int kPing_s = 5;  ///< the least that libmosquitto takes
+constexpr int kWaited_ms = 100;
+constexpr auto kLoginWithin = std::chrono::seconds{5};
+constexpr auto kLoginAgain = std::chrono::seconds{2};
 
 }  // namespace
 
-BrokerProbe::BrokerProbe(std::string host, int port) : host_(std::move(host)), port_(std::to_string(port)) {
-  if (!host_.empty()) thread_ = std::thread([this] { run(); });
+/// One connection. libmosquitto sends the pings, and ends it when one is not answered.
+class BrokerProbe::Client {
+ public:
+  explicit Client(const Broker::Options& broker)
+      : client_(mosquitto_new(nullptr, true, this)), login_until_(Clock::now() + kLoginWithin) {
+    if (client_ == nullptr) throw std::bad_alloc();
+    mosquitto_connect_callback_set(
+        client_, [](mosquitto*, void* self, int refused) { static_cast<Client*>(self)->answer_ = refused; });
+    if (!broker.user.empty())
+      mosquitto_username_pw_set(client_, broker.user.c_str(), broker.password.c_str());
+    open_ = mosquitto_connect_async(client_, broker.host.c_str(), broker.port, kPing_s) == MOSQ_ERR_SUCCESS;
+  }
+  ~Client() {
+    if (works()) mosquitto_disconnect(client_);
+    mosquitto_destroy(client_);
+  }
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+
+  /// False: the connection is over.
+  bool turn() {
+    open_ = open_ && mosquitto_loop(client_, kWaited_ms, 1) == MOSQ_ERR_SUCCESS &&
+            (works() || Clock::now() < login_until_);
+    return open_;
+  }
+  bool works() const { return open_ && answer_ == 0; }
+  /// Of the login; nullptr: it was not refused.
+  const char* refusal() const { return answer_ > 0 ? mosquitto_connack_string(answer_) : nullptr; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  mosquitto* client_;
+  Clock::time_point login_until_;
+  int answer_ = -1;
+  bool open_ = false;
+};
+
+BrokerProbe::BrokerProbe(std::optional<Broker::Options> broker) : broker_(std::move(broker)) {
+  if (broker_) thread_ = std::thread([this] { run(); });
 }
 
 BrokerProbe::~BrokerProbe() {
@@ -54,17 +63,26 @@ BrokerProbe::~BrokerProbe() {
   if (thread_.joinable()) thread_.join();
 }
 
-std::optional<bool> BrokerProbe::reached() const {
-  const int reached = reached_;
-  return reached < 0 ? std::nullopt : std::optional(reached == 1);
+std::optional<bool> BrokerProbe::works() const {
+  const int works = works_;
+  return works < 0 ? std::nullopt : std::optional(works == 1);
 }
 
 void BrokerProbe::run() {
+  mosquitto_lib_init();
+  bool told = false;
   while (!quit_) {
-    reached_ = is_reached(host_, port_) ? 1 : 0;
-    const auto next = std::chrono::steady_clock::now() + kPeriod;
-    while (!quit_ && std::chrono::steady_clock::now() < next) std::this_thread::sleep_for(kTurn);
+    Client client(*broker_);
+    while (!quit_ && client.turn())
+      if (client.works()) works_ = 1;
+    works_ = 0;
+    if (client.refusal() != nullptr && !std::exchange(told, true))
+      fmt::print(stderr, "broker {}:{}: {}\n", broker_->host, broker_->port, client.refusal());
+    const auto again = std::chrono::steady_clock::now() + kLoginAgain;
+    while (!quit_ && std::chrono::steady_clock::now() < again)
+      std::this_thread::sleep_for(std::chrono::milliseconds{kWaited_ms});
   }
+  mosquitto_lib_cleanup();
 }
 
 }  // namespace kinebus::fleet

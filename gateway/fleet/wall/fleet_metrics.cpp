@@ -56,7 +56,8 @@ void add_jobs(Exposition& out, const Queue::Numbers& numbers) {
             "Since the oldest job that waits was added; 0: none waits")
       .sample(numbers.oldest_waiting_s);
   out.counter("kinebus_fleet_jobs_begun_total",
-              "Jobs that a machine has begun; fewer when an operator releases one")
+              "Starts that a machine has taken into its history; a job that was released or asked for again "
+              "may have more than one")
       .sample(static_cast<double>(numbers.begun));
   out.counter("kinebus_fleet_jobs_ended_total", "Jobs that are over by result");
   for (const std::string_view result : kResults) out.sample(count(result), {{"result", result}});
@@ -71,7 +72,8 @@ std::string fleet_metrics(const FleetNumbers& numbers) {
   out.gauge("kinebus_fleet_looked_timestamp_seconds", "When these numbers were asked for, since 1970")
       .sample(numbers.looked_unix_s);
   if (numbers.broker)
-    out.gauge("kinebus_fleet_broker_up", "The broker takes connections").sample(*numbers.broker ? 1 : 0);
+    out.gauge("kinebus_fleet_broker_up", "The broker answers: a login, then pings")
+        .sample(*numbers.broker ? 1 : 0);
   if (numbers.database) {
     add_machines(out, numbers.machines);
     add_jobs(out, numbers.jobs);

@@ -15,7 +15,7 @@ struct FleetNumbers {
   Queue::Numbers jobs{};
   std::vector<Queue::Seen> machines{};
   double looked_unix_s = 0;
-  std::optional<bool> broker{};  ///< can be reached; nullopt: nobody asked for it
+  std::optional<bool> broker{};  ///< works; nullopt: nobody asked for it
 };
 
 /// An agent that has not told of its machine for so long is silent, on the wall, too.

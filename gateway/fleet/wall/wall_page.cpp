@@ -25,18 +25,30 @@ const words = {
         stale: "its agent is silent", lost: "no answer; what is shown is old", progress: "progress of" },
   tr: { queued: "sırada", assigned: "atandı", started: "sürüyor", over: "bitti", machines: "makine", job: "iş", silent: "yanıt vermiyor",
         stale: "aracısı sessiz", lost: "yanıt yok; görünen eski", progress: "ilerleme:",
+        database: "veritabanı yanıt vermiyor", told: "aracı şunu bildiriyor",
+        reasons: { none: "orada çalışan bir kinebusd yok: $1", gone: "kinebusd bağlantıyı kapattı", mute: "kinebusd yanıt vermiyor", far: "$1 adresine ulaşılamıyor" },
         states: {
           "off": "kapalı", "bring-up": "açılıyor", "not homed": "referans yok", "homing": "referansa gidiyor", "ready": "hazır",
           "moving": "hareket ediyor", "checking the job": "iş denetleniyor", "running": "çalışıyor", "holding": "duraklatılıyor", "held": "duraklatıldı",
           "cancelling": "iptal ediliyor", "stopping": "duruyor", "stopped": "durduruldu", "alarm": "alarm" } },
   fa: { queued: "در صف", assigned: "واگذار شده", started: "در جریان", over: "پایان یافته", machines: "ماشین", job: "کار", silent: "پاسخ نمی‌دهد",
         stale: "کارگزارش خاموش است", lost: "پاسخی نیست؛ آنچه دیده می‌شود کهنه است", progress: "پیشرفت",
+        database: "پایگاه داده پاسخ نمی‌دهد", told: "کارگزار چنین می‌گوید",
+        reasons: { none: "آنجا هیچ kinebusd در کار نیست: $1", gone: "kinebusd پیوند را بست", mute: "kinebusd پاسخ نمی‌دهد", far: "دسترسی به $1 ممکن نیست" },
         states: {
           "off": "خاموش", "bring-up": "در حال راه‌اندازی", "not homed": "بدون مبدأ", "homing": "رفتن به مبدأ", "ready": "آماده",
           "moving": "در حرکت", "checking the job": "بررسی کار", "running": "در حال اجرا", "holding": "در حال مکث", "held": "مکث",
           "cancelling": "در حال لغو", "stopping": "در حال توقف", "stopped": "متوقف", "alarm": "هشدار" } } };
 // What the fleet calls a state, by the words of a machine's own page (gateway/web/page/words.js).
 const state_words = (state) => (say.states || {})[state] || state;
+// Why a machine is not reached, as its agent says it (tools/cli/client.cpp): what it usually is in words, the rest as it was said.
+const reasons = [[/^no daemon answers at (.*) \([^()]*\); start one.*$/, "none"], [/^the daemon is gone: .*$/, "gone"],
+                 [/^the daemon does not answer$/, "mute"], [/^(\S+:\d+): .*$/, "far"]];
+const reason = (told) => {
+  if (!say.reasons || !told) return told;
+  const known = reasons.find(([form]) => form.test(told));
+  return known ? told.replace(known[0], say.reasons[known[1]]) : `${say.told}: ${told}`;
+};
 const language = (new URLSearchParams(location.search).get("lang") || navigator.language).slice(0, 2);
 const say = words[language] || words.en;
 document.documentElement.lang = words[language] ? language : "en";
@@ -54,19 +66,25 @@ function tile(name) {
 }
 function show(fleet) {
   const t = fleet.totals;
-  totals.textContent = fleet.error ? fleet.error :
-    `${fleet.machines.length} ${say.machines} · ${t.started} ${say.started} · ${t.assigned} ${say.assigned} · ${t.queued} ${say.queued} · ${t.over} ${say.over}`;
+  if (fleet.error) return broken(fleet.error);
+  totals.textContent = `${fleet.machines.length} ${say.machines} · ${t.started} ${say.started} · ${t.assigned} ${say.assigned} · ${t.queued} ${say.queued} · ${t.over} ${say.over}`;
   const seen = new Set();
   for (const m of fleet.machines || []) {
     const x = tile(m.name), stale = m.seen_s > 15;
     seen.add(m.name);
     x.state.textContent = stale ? say.stale : m.answers ? state_words(m.state) : say.silent;
     x.more.textContent = m.job ? `${say.job} ${m.job}` : [m.kind, m.material, m.nozzle_mm || ""].filter(Boolean).join(" · ");
-    x.li.title = m.words;
+    x.li.title = reason(m.words);
     x.li.className = stale || !m.answers || /alarm|stop/.test(m.state) ? "wrong" : m.job ? "works" : m.state === "ready" ? "ready" : "";
     x.bar.hidden = !m.job; x.bar.value = m.progress;
   }
   if (fleet.machines) for (const [name, x] of tiles) if (!seen.has(name)) { x.li.remove(); tiles.delete(name); }
+}
+// PostgreSQL's own words follow as they are, for who mends it.
+function broken(error) {
+  const detail = document.createElement("bdi");
+  detail.lang = "en"; detail.dir = "ltr"; detail.textContent = error;
+  totals.replaceChildren(...(say.database ? [say.database + ": "] : []), detail);
 }
 async function turn() {
   try { show(await (await fetch("fleet.json")).json()); } catch { totals.textContent = say.lost; }

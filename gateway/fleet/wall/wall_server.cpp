@@ -88,12 +88,12 @@ void serve_wall(const WallOptions& options, const std::atomic<bool>& quit) {
                              "by ssh, or by a server in front that speaks TLS and asks who they are)");
   fmt::print("http://127.0.0.1:{}/\n", listener.port());
   std::fflush(stdout);
-  const BrokerProbe broker(options.broker_host, options.broker_port);
+  const BrokerProbe broker(options.broker);
   std::thread asker([&] {
     Queue queue(options.database);
     for (int looks = 0; !quit; ++looks) {
       text.set(look(queue));
-      if (looks % kLooksAMetric == 0) text.set_metrics(look_for_metrics(queue, broker.reached()));
+      if (looks % kLooksAMetric == 0) text.set_metrics(look_for_metrics(queue, broker.works()));
       for (LocalTime waited{0}; !quit && waited < kPeriod; waited += kTurn)
         std::this_thread::sleep_for(kTurn);
     }

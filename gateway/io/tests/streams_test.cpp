@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <spdlog/logger.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -239,6 +240,79 @@ TEST_F(StreamsTest, AFloodLeavesTheRestOfTheLoopsTimeToOthers) {
   }
   const double bound_s = 0.010 + 0.2 * to_seconds(now - begin) + 0.004;
   EXPECT_LE(heard * 0.0005, bound_s) << heard << " in " << to_seconds(now - begin) << " s";
+  ::close(ends[1]);
+}
+
+// As the one before: who only comes and goes is a flood, too.
+TEST_F(StreamsTest, WhoComesAndGoesLeavesTheRestOfTheLoopsTimeToOthers) {
+  int came = 0;
+  StreamHub hub(loop_, {.share = 0.2, .burst = 10ms});
+  Listener listener(loop_, [&](int fd, const std::string&) {
+    hub.let_in();
+    ++came;
+    const LocalTime until = monotonic_now() + LocalTime{500us};
+    while (monotonic_now() < until) {
+    }
+    ::close(fd);
+  });
+  ASSERT_EQ(listener.listen_tcp("127.0.0.1:0"), "");
+  hub.add_door(listener.fd());
+  const LocalTime begin = monotonic_now();
+  LocalTime now = begin;
+  std::vector<std::unique_ptr<ByteStream>> guests;
+  while (now < begin + LocalTime{400ms} || came < 20) {
+    if (guests.size() < static_cast<std::size_t>(came) + 3)
+      if (const auto fd = connect_tcp("127.0.0.1", std::to_string(listener.port())))
+        guests.push_back(std::make_unique<SocketStream>(*fd));
+    hub.on_time(now);
+    loop_.wait(std::min(hub.next_deadline(), now + LocalTime{1ms}));
+    now = monotonic_now();
+  }
+  const double bound_s = 0.010 + 0.2 * to_seconds(now - begin) + 0.004;
+  EXPECT_LE(came * 0.0005, bound_s) << came << " in " << to_seconds(now - begin) << " s";
+}
+
+/// A byte for each reading, and never the last one; each takes longer than the turn has for streams.
+class Morsels : public SocketStream {
+ public:
+  using SocketStream::SocketStream;
+  Moved read(std::span<std::uint8_t> buffer) override {
+    const LocalTime until = monotonic_now() + LocalTime{1ms};
+    while (monotonic_now() < until) {
+    }
+    buffer[0] = 'x';
+    return {1, false};
+  }
+};
+
+TEST_F(StreamsTest, BytesThatComeOneByOneHaveTheTurnsTimeAndNoMore) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, ends.data()), 0);
+  int heard = 0;
+  ASSERT_TRUE(hub_.add(std::make_unique<Morsels>(ends[0]), std::make_unique<Laborious>(&heard)));
+  ASSERT_EQ(::send(ends[1], "x", 1, 0), 1);
+  loop_.wait(monotonic_now());
+  EXPECT_EQ(heard, 1);
+  ::close(ends[1]);
+}
+
+TEST_F(StreamsTest, AHelloInPiecesIsReadPieceByPiece) {
+  const auto tls = TlsContext::server(folder_.path() / "tls");
+  ASSERT_TRUE(tls) << tls.error();
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, ends.data()), 0);
+  // 20,000 records of a byte each: the begin of a hello that says it has 100,000.
+  std::string hello{"\x01\x01\x86\xa0\x03\x03", 6}, records;
+  hello.resize(20'000);
+  for (const char byte : hello) records += std::string("\x16\x03\x01\x00\x01", 5) + byte;
+  ASSERT_EQ(::send(ends[1], records.data(), records.size(), 0), static_cast<ssize_t>(records.size()));
+  const auto stream = tls->open(ends[0]);
+  std::array<std::uint8_t, 1000> buffer;
+  EXPECT_FALSE(stream->read(buffer).closed);
+  int left = 0;
+  ASSERT_EQ(::ioctl(ends[0], FIONREAD, &left), 0);
+  EXPECT_GT(left, static_cast<int>(records.size()) - 1000) << "read at once";
+  EXPECT_LT(left, static_cast<int>(records.size())) << "nothing was read";
   ::close(ends[1]);
 }
 

@@ -1,6 +1,7 @@
 #include "gateway/sessions/http/http_session.hpp"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -72,10 +73,16 @@ int status_of(joblink::ErrorCode code) {
   }
 }
 
-Answer refusal_of(int status, std::string_view why) {
-  return {
-      .status = status,
-      .body = nlohmann::json{{"error", why}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
+/// Under Moonraker's paths an error is an object, whose code its pages look at.
+Answer refusal_of(int status, std::string_view why, const Target& of) {
+  static constexpr std::array<std::string_view, 4> kMoonraker{"access", "machine", "printer", "server"};
+  const bool moonraker =
+      !of.path.empty() && std::find(kMoonraker.begin(), kMoonraker.end(), of.path[0]) != kMoonraker.end();
+  nlohmann::json error = why;
+  if (moonraker) error = {{"code", status}, {"message", why}};
+  return {.status = status,
+          .body = nlohmann::json{{"error", std::move(error)}}.dump(-1, ' ', false,
+                                                                   nlohmann::json::error_handler_t::replace)};
 }
 
 }  // namespace
@@ -305,11 +312,12 @@ void Session::end_exchange() {
 }
 
 void Session::refuse(int status, std::string_view why) {
-  answer(refusal_of(status, why));
+  answer(refusal_of(status, why, target_));
 }
 
 void Session::refuse_stranger() {
-  Answer refusal = refusal_of(401, "X-Api-Key must be a key of this gateway, or the password of HTTP Digest");
+  Answer refusal =
+      refusal_of(401, "X-Api-Key must be a key of this gateway, or the password of HTTP Digest", target_);
   // A browser would ask its user for a name and a password, where the page asks for the key.
   if (head().field("Sec-Fetch-Mode").empty())
     refusal.fields.emplace_back("WWW-Authenticate",

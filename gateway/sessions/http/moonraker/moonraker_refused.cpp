@@ -34,11 +34,38 @@ void kept_history(const Call& call) {
 void no_backups(const Call& call) {
   call.fail(kNotImplemented, "what pages keep is in web-pages.json beside the jobs: copy that file");
 }
+void no_users(const Call& call) {
+  call.fail(kNotImplemented,
+            "users and their keys are the gateway's: 'kinebus users'; a key is shown by itself");
+}
+void no_agents(const Call& call) {
+  call.fail(kNotImplemented, "Kinebus has no agents: its own API has what they do (/kinebus/v1)");
+}
+void no_trial(const Call& call) {
+  call.fail(kNotImplemented, "a camera is not tried: what is entered is shown");
+}
 
 }  // namespace
 
 std::span<const Method> moonraker_refused_methods() {
   static constexpr std::array kMethods{
+      Method{"access.login", "POST", "access/login", no_users},
+      Method{"access.logout", "POST", "access/logout", no_users},
+      Method{"access.refresh_jwt", "POST", "access/refresh_jwt", no_users},
+      Method{"access.get_user", "GET", "access/user", no_users},
+      Method{"access.post_user", "POST", "access/user", no_users},
+      Method{"access.delete_user", "DELETE", "access/user", no_users},
+      Method{"access.user.password", "POST", "access/user/password", no_users},
+      Method{"access.users.list", "GET", "access/users/list", no_users},
+      Method{"access.get_api_key", "GET", "access/api_key", no_users},
+      Method{"access.post_api_key", "POST", "access/api_key", no_users},
+      Method{"access.oneshot_token", "GET", "access/oneshot_token", no_users},
+      Method{"connection.register_remote_method", nullptr, nullptr, no_agents},
+      Method{"connection.send_event", nullptr, nullptr, no_agents},
+      Method{"server.extensions.request", "POST", "server/extensions/request", no_agents},
+      Method{"server.webcams.test", "POST", "server/webcams/test", no_trial},
+      Method{"machine.sudo.info", "GET", "machine/sudo/info", no_services},
+      Method{"machine.sudo.password", "POST", "machine/sudo/password", no_services},
       Method{"server.job_queue.post_job", "POST", "server/job_queue/job", no_queue},
       Method{"server.job_queue.delete_job", "DELETE", "server/job_queue/job", no_queue},
       Method{"server.job_queue.pause", "POST", "server/job_queue/pause", no_queue},

@@ -66,6 +66,13 @@ void temperature_store(const Call& call) {
 void announcements(const Call& call) {
   call.done({{"entries", Json::array()}, {"feeds", Json::array()}});
 }
+void feeds(const Call& call) {
+  call.done({{"feeds", Json::array()}});
+}
+/// Programs that register with Moonraker: none do here.
+void extensions(const Call& call) {
+  call.done({{"extensions", Json::array()}});
+}
 void dismiss(const Call& call) {
   call.fail(404, "there is no announcement '" + call.text("entry_id") + "'");
 }
@@ -86,6 +93,8 @@ std::span<const Method> moonraker_store_methods() {
       Method{"server.gcode_store", "GET", "server/gcode_store", gcode_store},
       Method{"server.temperature_store", "GET", "server/temperature_store", temperature_store},
       Method{"server.announcements.list", "GET", "server/announcements/list", announcements},
+      Method{"server.announcements.feeds", "GET", "server/announcements/feeds", feeds},
+      Method{"server.extensions.list", "GET", "server/extensions/list", extensions},
       Method{"server.announcements.update", "POST", "server/announcements/update", announcements},
       Method{"server.announcements.dismiss", "POST", "server/announcements/dismiss", dismiss},
   };
