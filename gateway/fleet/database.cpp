@@ -8,7 +8,7 @@
 namespace kinebus::fleet {
 namespace {
 
-constexpr const char* kUniqueViolation = "23505";
+constexpr std::string_view kUniqueViolation = "23505", kNoSuchColumn = "42703", kNoSuchTable = "42P01";
 
 /// PostgreSQL's words end in a line's end, and may have more lines.
 std::string words_of(const char* message) {
@@ -84,11 +84,13 @@ pg_conn* Database::connection() {
 pg_result* Database::checked(pg_result* result) {
   const ExecStatusType status = PQresultStatus(result);
   if (status == PGRES_COMMAND_OK || status == PGRES_TUPLES_OK) return result;
-  const char* code = PQresultErrorField(result, PG_DIAG_SQLSTATE);
-  const bool taken = code != nullptr && std::string_view(code) == kUniqueViolation;
-  const std::string words = words_of(PQerrorMessage(connection_.get()));
+  const char* given = PQresultErrorField(result, PG_DIAG_SQLSTATE);
+  const std::string code = given == nullptr ? "" : given;
+  std::string words = words_of(PQerrorMessage(connection_.get()));
   PQclear(result);
-  if (taken) throw NotUnique(words);
+  if (code == kUniqueViolation) throw NotUnique(words);
+  if (code == kNoSuchColumn || code == kNoSuchTable)
+    words += "; expected: the tables of this version, which 'kinebus-fleet init' makes";
   throw DatabaseError(words);
 }
 
