@@ -50,11 +50,11 @@ std::string demo_print(const MachineDescription& machine) {
       fmt::format("; A first print of {}: a flat square of 30 mm, for PLA\nG21 G90 M83\n", machine.name);
   if (bed != nullptr) text += fmt::format("M140 S{:.0f}\n", bed_c);
   if (hotend != nullptr) text += fmt::format("M104 S{:.0f}\n", hotend_c);
-  text += "G0 X0 Y0 Z20 F3000\n";
+  text += "G0 X0 Y0 F3000\nG0 Z20 F600\n";
   if (bed != nullptr) text += fmt::format("M190 S{:.0f}\n", bed_c);
   if (hotend != nullptr) text += fmt::format("M109 S{:.0f}\n", hotend_c);
   for (int layer = 1; layer <= kLayers; ++layer) {
-    text += fmt::format(";LAYER:{}\nG0 X{:.2f} Y{:.2f} F6000\nG1 Z{:.2f} F600\n", layer - 1, -kHalf_mm[0],
+    text += fmt::format(";LAYER:{}\nG0 X{:.2f} Y{:.2f} F3000\nG1 Z{:.2f} F600\n", layer - 1, -kHalf_mm[0],
                         -kHalf_mm[0], layer * kLayer_mm);
     if (layer == 2 && !machine.fans.empty()) text += "M106 S255\n";
     for (const double half : kHalf_mm) text += square(half, hotend != nullptr);

@@ -112,6 +112,7 @@ TEST_F(OctopusAndEbbHeat, AllMotorsAreTheOctopusAndTheHotEndIsTheEbbs) {
   EXPECT_EQ(machine->joints.back().node_id, 2);
   EXPECT_EQ(machine->node(6)->serial, 77u);
   EXPECT_TRUE(rig.dark());
+  EXPECT_EQ(rig.heat->nmt_state(), NmtState::kPreOperational) << "as the gateway expects it, before its SYNC";
 }
 
 TEST_F(OctopusAndEbbHeat, AnEbbWithTheProgramOfAnAxisIsTold) {
