@@ -21,6 +21,7 @@ struct Arguments {
   std::string job, machine, plant, json_path, plot_path, ringing_path, candump_path;
   std::uint64_t seed = 1;
   double limit_s = 0;
+  int reorder = 1;
   bool json = false;
   std::string physics = "rigid";
   double frequency_error_percent = 10, damping_error_percent = 30;
@@ -41,6 +42,7 @@ int run(const Arguments& arguments) {
   options.simulation.seed = arguments.seed;
   if (!arguments.plant.empty()) options.simulation.plant = &plant;
   options.limit_s = arguments.limit_s;
+  options.reorder = arguments.reorder;
   if (!arguments.plot_path.empty()) options.plot = &plot;
   RingingTraces ringing;
   if (!arguments.ringing_path.empty()) {
@@ -109,6 +111,11 @@ void add_simulate_command(CLI::App& app, const bool& json, int& exit_code) {
   command->add_option("--candump", arguments->candump_path, "Write all frames here, as candump -l does");
   command->add_option("--seed", arguments->seed, "Of clocks, latencies and start positions (default 1)");
   command->add_option("--limit-seconds", arguments->limit_s, "Measure only so much of the job, machine time");
+  command
+      ->add_option("--reorder", arguments->reorder,
+                   "The adapter gives up to so many frames in a row in any order, either way, as gs_usb does "
+                   "before Linux 6.6 (default 1: none)")
+      ->check(CLI::Range(1, 4));
   command
       ->add_option("--physics", arguments->physics,
                    "flexible: the tool swings on its frame, other than [vibration] says, and the job runs "

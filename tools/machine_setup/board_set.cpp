@@ -11,7 +11,7 @@ namespace {
 // port/stm32f446_octopus.
 constexpr std::uint8_t kOctopusFirst = 1, kOctopusPairs = 4, kOctopusHeat = 5;
 constexpr std::uint8_t kOctopusStops = 8;
-constexpr std::uint8_t kEbbAxis = 6;  // its extruder
+constexpr std::uint8_t kEbb = 6;  // its extruder, or its heat: one program each
 
 /// nullptr: this build knows no such board.
 const BoardFacts* facts_of(std::string_view name) {
@@ -33,7 +33,8 @@ MotorPlace card_motor(std::size_t motor) {
 }
 
 void add_octopus(BoardPlan& plan, std::size_t motors) {
-  plan.roles.push_back({"Octopus", facts_of("stm32f446_octopus"), kOctopusFirst, kOctopusPairs + 1});
+  plan.roles.push_back(
+      {"Octopus", facts_of("stm32f446_octopus"), kOctopusFirst, kOctopusPairs + 1, "kinebus-octopus-f446"});
   for (std::size_t driver = 0; driver < motors; ++driver) plan.motors.push_back(octopus_motor(driver));
   plan.heat_nodes.push_back({kOctopusHeat, 4, 1, 6, "Octopus"});
   plan.bed = {kOctopusHeat, 2, "bed heater and TB of the Octopus"};
@@ -41,6 +42,37 @@ void add_octopus(BoardPlan& plan, std::size_t motors) {
   plan.hotend_fan = {kOctopusHeat, 1, "FAN0 of the Octopus"};
   plan.part_fan = {kOctopusHeat, 2, "FAN1 of the Octopus"};
   plan.probe = {kOctopusFirst, 7, "PROBE of the Octopus"};
+}
+
+void add_ebb_axis(BoardPlan& plan) {
+  plan.roles.push_back({"EBB", facts_of("stm32g0b1_ebb"), kEbb, 1, "kinebus-ebb-g0b1", facts_of("heat")});
+  plan.motors.push_back({kEbb, 0, "the extruder's driver of the EBB", "PROBE of the EBB"});
+  // That image has no heat node: the hot end and its fans are the Octopus'.
+  plan.probe = {kEbb, 1, "PROBE of the EBB"};
+}
+
+/// Hot end and fans at the tool head; the Octopus keeps the motors, the bed and the probe.
+void add_ebb_heat(BoardPlan& plan) {
+  plan.roles.push_back(
+      {"EBB", facts_of("heat"), kEbb, 1, "kinebus-ebb-g0b1-heat", facts_of("stm32g0b1_ebb")});
+  plan.heat_nodes.push_back({kEbb, 1, 0, 2, "EBB"});
+  plan.hotend = {kEbb, 1, "heater and TH0 of the EBB"};
+  plan.hotend_fan = {kEbb, 1, "FAN1 of the EBB"};
+  plan.part_fan = {kEbb, 2, "FAN2 of the EBB"};
+}
+
+void add_cards(BoardPlan& plan, std::size_t joints, std::uint8_t heat_node) {
+  for (std::size_t motor = 0; motor < joints; ++motor) plan.motors.push_back(card_motor(motor));
+  for (std::size_t card = 1; card <= (joints + 1) / 2; ++card)
+    plan.roles.push_back({fmt::format("card {}", card), facts_of("stm32f405"),
+                          static_cast<std::uint8_t>(card), 1, "kinebus-node"});
+  plan.probe = {1, 7, "switch input 7 of card 1"};
+  if (heat_node == 0) return;
+  plan.heat_nodes.push_back({heat_node, 2, 0, 2, "heat node"});
+  plan.hotend = {heat_node, 1, "heater 1 and sensor 1 of the heat node"};
+  plan.bed = {heat_node, 2, "heater 2 and sensor 2 of the heat node"};
+  plan.hotend_fan = {heat_node, 1, "fan 1 of the heat node"};
+  plan.part_fan = {heat_node, 2, "fan 2 of the heat node"};
 }
 
 }  // namespace
@@ -55,9 +87,11 @@ std::span<const SetupChoice> setup_machines() {
 }
 
 std::span<const SetupChoice> board_sets() {
-  static constexpr std::array<SetupChoice, 3> kChoices{
+  static constexpr std::array<SetupChoice, 4> kChoices{
       {{"octopus", "one BTT Octopus with everything on it"},
        {"octopus+ebb", "one BTT Octopus, and a BTT EBB36 or EBB42 at the tool head"},
+       {"octopus+ebb-heat",
+        "one BTT Octopus with all motors, and a BTT EBB36 or EBB42 with the hot end and its fans"},
        {"cards", "driver cards with an STM32F405, two motors each"}}};
   return kChoices;
 }
@@ -70,23 +104,14 @@ BoardPlan plan_boards(BoardSet set, std::size_t joints, std::uint8_t heat_node) 
       break;
     case BoardSet::kOctopusEbb:
       add_octopus(plan, joints - 1);
-      plan.roles.push_back({"EBB", facts_of("stm32g0b1_ebb"), kEbbAxis, 1});
-      plan.motors.push_back({kEbbAxis, 0, "the extruder's driver of the EBB", "PROBE of the EBB"});
-      // Its image has no heat node: the hot end and its fans are the Octopus'.
-      plan.probe = {kEbbAxis, 1, "PROBE of the EBB"};
+      add_ebb_axis(plan);
+      break;
+    case BoardSet::kOctopusEbbHeat:
+      add_octopus(plan, joints);
+      add_ebb_heat(plan);
       break;
     case BoardSet::kCards:
-      for (std::size_t motor = 0; motor < joints; ++motor) plan.motors.push_back(card_motor(motor));
-      for (std::size_t card = 1; card <= (joints + 1) / 2; ++card)
-        plan.roles.push_back(
-            {fmt::format("card {}", card), facts_of("stm32f405"), static_cast<std::uint8_t>(card), 1});
-      plan.probe = {1, 7, "switch input 7 of card 1"};
-      if (heat_node == 0) break;
-      plan.heat_nodes.push_back({heat_node, 2, 0, 2, "heat node"});
-      plan.hotend = {heat_node, 1, "heater 1 and sensor 1 of the heat node"};
-      plan.bed = {heat_node, 2, "heater 2 and sensor 2 of the heat node"};
-      plan.hotend_fan = {heat_node, 1, "fan 1 of the heat node"};
-      plan.part_fan = {heat_node, 2, "fan 2 of the heat node"};
+      add_cards(plan, joints, heat_node);
       break;
   }
   return plan;
@@ -100,7 +125,7 @@ std::string switch_words(BoardSet set, std::uint8_t node, int input) {
     return fmt::format("STOP{} ({})", (2 * (node - kOctopusFirst) + input - 1) % kOctopusStops, plain);
   }
   constexpr std::array kEbbInputs{"PROBE", "PB4", "PB3"};
-  if (node == kEbbAxis && input <= int{kEbbInputs.size()})
+  if (set == BoardSet::kOctopusEbb && node == kEbb && input <= int{kEbbInputs.size()})
     return fmt::format("{} ({})", kEbbInputs[static_cast<std::size_t>(input - 1)], plain);
   return plain;
 }

@@ -14,7 +14,7 @@
 namespace kinebus {
 
 enum class SetupMachine : std::uint8_t { kM1, kDelta, kCoreXy, kCartesian };
-enum class BoardSet : std::uint8_t { kOctopus, kOctopusEbb, kCards };
+enum class BoardSet : std::uint8_t { kOctopus, kOctopusEbb, kOctopusEbbHeat, kCards };
 
 /// Something that is chosen by its word.
 struct SetupChoice {
@@ -32,6 +32,9 @@ struct BoardRole {
   const BoardFacts* kind = nullptr;  ///< what its first node is
   std::uint8_t first_id = 1;
   std::uint8_t ids = 1;  ///< nodes on it, with ids in a row
+  std::string program;   ///< its image, without .bin
+  /// What the same board is with its other program, whose change wants to be told of; nullptr: it has none.
+  const BoardFacts* otherwise = nullptr;
 };
 
 /// Where a motor is connected.

@@ -116,7 +116,7 @@ MachineDescription make_description(const FirstMachine& first) {
   const BoardPlan plan = plan_of(first);
   MachineDescription d = shipped(word_of(first.machine));
   d.name = fmt::format("{}_{}", word_of(first.machine), choice_of(first.boards).word);
-  std::replace(d.name.begin(), d.name.end(), '+', '_');
+  for (const char sign : {'+', '-'}) std::replace(d.name.begin(), d.name.end(), sign, '_');
   d.bus.interface = first.interface;
   d.nodes.clear();
   for (std::size_t j = 0; j < d.joints.size(); ++j) {

@@ -106,6 +106,24 @@ void make_way(SetupState& s, NodeIds& ids, const Boards& boards, const BoardRole
     throw std::runtime_error(fmt::format("{}: {}", what, failed));
 }
 
+/// A board that could have the role, with the program of its other use.
+void tell_of_other_program(SetupState& s, const Boards& boards, const BoardRole& role) {
+  for (const BusBoard& one : boards) {
+    if (role.otherwise == nullptr || one.kind == nullptr || follows(boards, one) ||
+        one.kind->product_code != role.otherwise->product_code)
+      continue;
+    const std::string give = one.board.node_id != 0 ? ""
+                                                    : fmt::format("kinebus-node-id give {} --serial {}; ",
+                                                                  role.first_id, one.board.serial());
+    s.dialogue.say(
+        fmt::format("{} ({}) answers. If that is the {}, it wants the program for this use: {}kinebus-flash "
+                    "-i {} --node {} "
+                    "--force {}.bin",
+                    one.kind->device_name, words_of(one), role.name, give, s.first.interface,
+                    one.board.node_id != 0 ? one.board.node_id : role.first_id, role.program));
+  }
+}
+
 }  // namespace
 
 void give_ids(SetupState& s) {
@@ -129,6 +147,7 @@ void give_ids(SetupState& s) {
             fmt::format("{}: no board with {} answers on {}. Has it power, its program, and a place "
                         "on the bus with both ends terminated?",
                         role.name, role.kind->hardware_version, s.first.interface));
+        tell_of_other_program(s, boards, role);
         if (!s.dialogue.yes(role.name, "Look again?", true))
           throw std::runtime_error(fmt::format("{}: not found", role.name));
         continue;
@@ -165,7 +184,7 @@ void offer_programs(SetupState& s) {
     for (;;) {
       const std::string image = s.dialogue.line(
           fmt::format("\nProgram for {} ({}.bin) to write over CAN; empty: they keep the one that they have",
-                      role.name, role.kind->order_code));
+                      role.name, role.program));
       if (image.empty()) break;
       std::vector<std::uint8_t> nodes;
       for (const BoardRole& other : plan.roles)

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "protocol/canopen/heat_objects.hpp"
+#include "protocol/canopen/nmt.hpp"
 #include "tools/card/card.hpp"
 
 namespace kinebus {
@@ -28,7 +29,8 @@ class MotorsOff {
   std::vector<std::uint8_t> nodes_;
 };
 
-/// All set points and outputs of each heat node are 0 when it ends.
+/// All set points and outputs of each heat node are 0 when it ends, and it is pre-operational as a gateway
+/// expects it: else the first SYNC, which it was not told of, is an alarm.
 class HeatOff {
  public:
   HeatOff(BusAccess bus, std::vector<std::uint8_t> nodes) : bus_(std::move(bus)), nodes_(std::move(nodes)) {}
@@ -41,6 +43,7 @@ class HeatOff {
           heat.write({heat_object::kSetPoint.index, static_cast<std::uint8_t>(n + 1)}, 0);
         for (std::uint8_t n = 0; n < kFans; ++n)
           heat.write({heat_object::kFanOutput.index, static_cast<std::uint8_t>(n + 1)}, 0);
+        heat.send(nmt_frame(NmtCommand::kEnterPreOperational, node));
       } catch (const std::exception&) {  // it lets go by itself without a master
       }
   }

@@ -22,9 +22,12 @@ struct PressedInput {
   std::uint8_t node = 0;
   int input = 1;  ///< 1..7
   bool high = false;
+  bool is_at(std::uint8_t at_node, int at_input) const { return node == at_node && input == at_input; }
 };
 
 class SwitchTest {
+  using Levels = std::map<std::uint8_t, unsigned>;  ///< at the pins, by node
+
  public:
   explicit SwitchTest(SetupState& state) : s_(state) {
     for (const NodeDescription& node : s_.machine.nodes)
@@ -44,8 +47,8 @@ class SwitchTest {
 
  private:
   /// The inputs of all nodes as they are at the pins.
-  std::map<std::uint8_t, unsigned> levels() {
-    std::map<std::uint8_t, unsigned> all;
+  Levels levels() {
+    Levels all;
     for (const std::uint8_t id : nodes_) {
       NodeSdo node(s_.host.bus, id);
       auto bits = static_cast<unsigned>(node.read(object::kSwitchLevels));
@@ -61,20 +64,44 @@ class SwitchTest {
     return all;
   }
 
-  std::optional<PressedInput> wait_for_press() {
+  /// One pin may be an input of several nodes (the Octopus' stops): of those that change at once the one at
+  /// `node`, `input` counts, or one of that node, or the first. nullopt: none, or it has not come back.
+  std::optional<PressedInput> wait_for_press(std::uint8_t node, int input) {
     const auto before = levels();
     for (const LocalTime end = s_.host.bus.now() + kPress; s_.host.bus.now() < end;) {
       if (s_.host.interrupted()) throw SetupInterrupted("interrupted");
-      for (const auto& [node, now] : levels())
-        for (int i = 0; i < kSwitchInputs; ++i)
-          if (const unsigned bit = 1U << i; ((now ^ before.at(node)) & bit) != 0) {
-            const PressedInput pressed{node, i + 1, (now & bit) != 0};
-            if (!let_go(pressed)) s_.dialogue.say("It has not come back: is it stuck, or still pressed?");
-            return pressed;
-          }
+      if (const auto pressed = best(changed(before, levels()), node, input)) {
+        if (let_go(*pressed)) return pressed;
+        s_.dialogue.say(fmt::format(
+            "{} has not come back: it is stuck, or was pressed before it was asked for. Let it go, and once "
+            "more.",
+            words(pressed->node, pressed->input)));
+        return std::nullopt;
+      }
       NodeSdo(s_.host.bus, *nodes_.begin()).pause(kLook);
     }
+    s_.dialogue.say(
+        "Nothing was seen in 30 s: is the plug in the right socket, and its wire whole? A switch that is "
+        "pressed "
+        "already cannot be seen: let it go first.");
     return std::nullopt;
+  }
+
+  static std::vector<PressedInput> changed(const Levels& before, const Levels& after) {
+    std::vector<PressedInput> all;
+    for (const auto& [node, now] : after)
+      for (int i = 0; i < kSwitchInputs; ++i)
+        if (const unsigned bit = 1U << i; ((now ^ before.at(node)) & bit) != 0)
+          all.push_back({node, i + 1, (now & bit) != 0});
+    return all;
+  }
+  static std::optional<PressedInput> best(const std::vector<PressedInput>& all, std::uint8_t node,
+                                          int input) {
+    for (const PressedInput& one : all)
+      if (one.is_at(node, input)) return one;
+    for (const PressedInput& one : all)
+      if (one.node == node) return one;
+    return all.empty() ? std::nullopt : std::optional(all.front());
   }
 
   bool let_go(const PressedInput& pressed) {
@@ -88,17 +115,13 @@ class SwitchTest {
 
   std::string words(std::uint8_t node, int input) const { return switch_words(s_.first.boards, node, input); }
 
-  /// Asks for a press, until one was seen or the switch is passed over.
-  std::optional<PressedInput> ask(const std::string& what) {
+  /// Asks for a press, until one was seen or the switch is passed over. `node`, `input`: where it belongs.
+  std::optional<PressedInput> ask(const std::string& what, std::uint8_t node, int input) {
     for (;;) {
       static constexpr SetupChoice kReady[] = {{"press", "it is pressed within 30 s from now"},
                                                {"skip", "this switch is not tested now"}};
       if (s_.dialogue.choose("switch", what, kReady, 0) == 1) return std::nullopt;
-      if (const auto pressed = wait_for_press()) return pressed;
-      s_.dialogue.say(
-          "Nothing was seen in 30 s: is the plug in the right socket, and its wire whole? A switch that is "
-          "pressed "
-          "already cannot be seen: let it go first.");
+      if (const auto pressed = wait_for_press(node, input)) return pressed;
     }
   }
 
@@ -117,7 +140,7 @@ class SwitchTest {
     const std::uint8_t wanted = joint.homing->switch_input;
     const std::string place = fmt::format("Switch of {}: {}", joint.name, words(joint.node_id, wanted));
     if (s_.done(key, place)) return true;
-    const auto pressed = ask(place);
+    const auto pressed = ask(place, joint.node_id, wanted);
     if (!pressed) return s_.answers.set(key, kSkipped), true;
     if (pressed->node != joint.node_id) {
       s_.dialogue.say(
@@ -155,9 +178,9 @@ class SwitchTest {
     const DevicePlace& at = s_.machine.probe.place;
     const std::string place = fmt::format("Probe: {}", words(at.node_id, at.channel));
     if (s_.done(key, place)) return true;
-    const auto pressed = ask(place);
+    const auto pressed = ask(place, at.node_id, at.channel);
     if (!pressed) return s_.answers.set(key, kSkipped), true;
-    // One input of the Octopus is each of its nodes'.
+    // An Octopus' probe is an input of each of its nodes.
     if (pressed->input != at.channel)
       return s_.dialogue.say(fmt::format("That was {}: put the plug into {}.",
                                          words(pressed->node, pressed->input),

@@ -9,6 +9,7 @@
 #include "gateway/description/device_schema.hpp"
 #include "gateway/description/machine_file.hpp"
 #include "tools/card/node_sdo.hpp"
+#include "tools/machine_setup/demo_print.hpp"
 
 namespace kinebus {
 namespace {
@@ -109,15 +110,22 @@ bool check_file(const SetupState& s) {
   s.dialogue.say(fmt::format("\n{}: {} joints on {} nodes, {} heaters: in order.", s.file.string(),
                              machine->joints.size(), machine->nodes.size(), machine->heaters.size()));
   const std::string file = std::filesystem::absolute(s.file).string();
+  const std::string demo = std::filesystem::absolute(s.file).replace_extension(".demo.gcode").string();
+  write_file(demo, demo_print(*machine));
+  s.dialogue.say(fmt::format("Written: {}", demo));
   s.dialogue.say(fmt::format(
-      "Before the first print look into it: travel, limits, currents and geometry are those of a usual "
+      "Before the first print look into the machine file: travel, limits, currents and geometry are those of "
+      "a usual "
       "machine of this kind.\n"
-      "Start the gateway:   kinebusd --machine {} --bus {}\n"
-      "Look at the machine: kinebus home --machine {}; kinebus status\n"
-      "A demo print:        kinebus-make-job print -o print.gcode\n"
-      "                     kinebus plan print.gcode --machine {}\n"
-      "                     kinebus bring-up; kinebus home; kinebus print print.gcode",
-      file, s.first.interface, file, file));
+      "Start the gateway: kinebusd --machine {0} --bus {1}\n"
+      "How it will home:  kinebus plan --home --machine {0}\n"
+      "A demo print:      kinebus plan {2} --machine {0}\n"
+      "                   kinebus home\n"
+      "                   kinebus run {2}",
+      file, s.first.interface, demo));
+  if (!machine->heaters.empty())
+    s.dialogue.say(
+        "After it, once for each heater: kinebus tune hotend. What was measured is watched closer.");
   return true;
 }
 

@@ -7,6 +7,7 @@
 #include <ctime>
 
 #include "gateway/description/machine_file.hpp"
+#include "tools/simulation/bus/reordering_nodes.hpp"
 #include "tools/simulation/checkers/bus_checker.hpp"
 #include "tools/simulation/checkers/jerk_checker.hpp"
 #include "tools/simulation/checkers/joint_checker.hpp"
@@ -46,8 +47,13 @@ std::unique_ptr<NodeMachine> make_nodes(const MachineDescription& machine, const
   const std::uint64_t seed = options.simulation.seed;
   // Switches stand where the machine really has them, not where its description says.
   const MachineDescription& real = options.simulation.plant ? *options.simulation.plant : machine;
-  if (options.make_nodes) return options.make_nodes(virtual_nodes_of(real, options.simulation.clocks, seed));
-  return virtual_machine_of(real, options.simulation.clocks, seed);
+  std::unique_ptr<NodeMachine> nodes;
+  if (options.make_nodes)
+    nodes = options.make_nodes(virtual_nodes_of(real, options.simulation.clocks, seed));
+  else
+    nodes = virtual_machine_of(real, options.simulation.clocks, seed);
+  if (options.reorder <= 1) return nodes;
+  return std::make_unique<ReorderingNodes>(std::move(nodes), options.reorder, seed);
 }
 
 /// All checkers together, fed by one simulation.

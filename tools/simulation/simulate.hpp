@@ -47,7 +47,8 @@ struct SimulateOptions {
   std::optional<NozzlePhysics> nozzle;      ///< none: nobody looks at beads
   /// Nodes of another make in the place of these virtual ones (firmware images on emulated boards).
   std::function<std::unique_ptr<NodeMachine>(const std::vector<VirtualNodeOptions>&)> make_nodes;
-  double limit_s = 0;                ///< stop measuring after so much job time; 0: the whole job
+  int reorder = 1;     ///< an adapter changes the order of up to so many frames, either way (ReorderingNodes)
+  double limit_s = 0;  ///< stop measuring after so much job time; 0: the whole job
   PlotData* plot = nullptr;          ///< filled along the way
   RingingTraces* ringing = nullptr;  ///< the same, by simulate_flexible
   std::function<void(double progress, double job_s)> on_progress;

@@ -17,7 +17,7 @@ using namespace kinebus;
 
 int run(int argc, char** argv) {
   CLI::App app(
-      "kinebus-wiring: wiring.svg of every board's port folder, from the pin table that its firmware has.");
+      "kinebus-wiring: the pictures in every board's port folder, from the pin table that its firmware has.");
   std::string root = ".";
   bool check = false;
   app.add_option("root", root, "The repository")->check(CLI::ExistingDirectory)->capture_default_str();
@@ -25,7 +25,7 @@ int run(int argc, char** argv) {
   if (const auto end = parse_arguments(app, argc, argv)) return *end;
   int old = 0;
   for (const WiringPage& page : wiring_pages()) {
-    const std::filesystem::path file = std::filesystem::path(root) / page.folder / "wiring.svg";
+    const std::filesystem::path file = std::filesystem::path(root) / page.folder / page.file;
     const std::string picture = draw_wiring(page);
     std::ifstream in(file, std::ios::binary);
     std::ostringstream there;

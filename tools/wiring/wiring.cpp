@@ -7,6 +7,7 @@
 
 #include "node_firmware/port/stm32f405/board.hpp"
 #include "node_firmware/port/stm32f446_octopus/board.hpp"
+#include "node_firmware/port/stm32g0b1_ebb/board.hpp"
 #include "tools/drawing/document.hpp"
 
 namespace kinebus {
@@ -83,11 +84,34 @@ void draw_legend(Document& svg, double y) {
   }
 }
 
+/// What the program of the heat node makes of the EBB's pins: its own come in the others' place.
+constexpr auto kEbbHeatPins = [] {
+  constexpr std::size_t kMore = std::size_t{3};  // SPI2
+  std::array<Pin, ebb::kPins.size() + kMore> all{};
+  std::size_t count = 0;
+  for (const Pin& pin : ebb::kPins) all[count++] = pin;
+  for (const Pin& mine : ebb::kHeatPins) {
+    std::size_t at = 0;
+    while (at < count && (all[at].port != mine.port || all[at].number != mine.number)) ++at;
+    all[at] = mine;
+    if (at == count) ++count;
+  }
+  return all;
+}();
+static_assert(stm32::pins_differ(kEbbHeatPins));
+
 constexpr std::array kPages{
-    WiringPage{"f405", "node_firmware/port/stm32f405", "The dual-stepper board: STM32F405RG",
+    WiringPage{"f405", "node_firmware/port/stm32f405", "wiring.svg", "The dual-stepper board: STM32F405RG",
                "From board.hpp  Arrows point out of the chip or into it.", board::kPins},
-    WiringPage{"octopus", "node_firmware/port/stm32f446_octopus", "BTT Octopus v1.0, v1.1: STM32F446ZE",
+    WiringPage{"octopus", "node_firmware/port/stm32f446_octopus", "wiring.svg",
+               "BTT Octopus v1.0, v1.1: STM32F446ZE",
                "From board.hpp  Arrows point out of the chip or into it.", octopus::kPins},
+    WiringPage{"ebb", "node_firmware/port/stm32g0b1_ebb", "wiring.svg",
+               "BTT EBB36, EBB42 v1.1, v1.2: STM32G0B1CB, the extruder's axis",
+               "From board.hpp  Arrows point out of the chip or into it.", ebb::kPins},
+    WiringPage{"ebb-heat", "node_firmware/port/stm32g0b1_ebb", "wiring_heat.svg",
+               "BTT EBB36, EBB42 v1.1, v1.2: STM32G0B1CB, the heat node",
+               "From board.hpp  Arrows point out of the chip or into it.", kEbbHeatPins},
 };
 
 }  // namespace

@@ -12,8 +12,9 @@
 namespace kinebus {
 
 struct WiringPage {
-  std::string_view name;    ///< of the picture: "octopus" is drawn as wiring.svg of that board's port
+  std::string_view name;    ///< of the board
   std::string_view folder;  ///< of the port, from the repository's root
+  std::string_view file;    ///< of the picture there
   std::string_view title;
   std::string_view subtitle;
   std::span<const stm32::Pin> pins;

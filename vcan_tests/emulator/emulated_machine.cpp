@@ -64,7 +64,7 @@ EmulatedMachine::EmulatedMachine(const ElfImage& image, const std::vector<Emulat
   for (const EmulatedNodeOptions& options : nodes) longest = std::max(longest, options.powered_before);
   for (const EmulatedNodeOptions& options : nodes) {
     auto node = std::make_unique<Node>();
-    node->board = options.make(image, options.board);
+    node->board = options.make(options.image != nullptr ? *options.image : image, options.board);
     node->port = bus_.add_port(CanController::kMailboxes);
     node->powered = longest - options.powered_before;
     node->drift_ppm = options.clock_drift_ppm;
@@ -102,6 +102,7 @@ void EmulatedMachine::commission(const std::vector<EmulatedNodeOptions>& options
   };
   for (std::size_t i = 0; i < options.size(); ++i) {
     const EmulatedNodeOptions& o = options[i];
+    if (o.node_id == 0) continue;
     const std::uint32_t product = nodes_[i]->board->product_code();
     master.select(time_, {kVendorId, product, kRevisionNumber, serial_of(o.board.unique_id)});
     finish("select", o.node_id);

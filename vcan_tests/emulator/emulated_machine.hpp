@@ -26,11 +26,13 @@ std::unique_ptr<Chip> make_board(const ElfImage& image, const BoardOptions& opti
 
 struct EmulatedNodeOptions {
   BoardOptions board;
-  std::uint8_t node_id = 1;    ///< given by LSS before time zero, as a commissioning tool does
+  /// Given by LSS before time zero, as a commissioning tool does; 0: none, as a new board comes.
+  std::uint8_t node_id = 1;
   bool keeps_node_id = false;  ///< it has stored that id and has it again after a loss of power
   BusTime powered_before{0};   ///< how long before the others' commissioning it was switched on
   double clock_drift_ppm = 0;
   BoardMaker make = &make_board<Board>;
+  const ElfImage* image = nullptr;  ///< the board's own, which lives as long; none: that of all
 };
 
 /// The boards that stand for these virtual nodes: same places, switches, crystals, power-up times.

@@ -7,6 +7,9 @@
 #include <csignal>
 #include <cstdio>
 #include <deque>
+#include <optional>
+
+#include "vcan_tests/emulator/workbench.hpp"
 
 namespace kinebus::emulator {
 namespace {
@@ -29,6 +32,8 @@ std::string run_live(const ElfImage& image, const std::vector<EmulatedNodeOption
   std::signal(SIGINT, on_end);
   std::signal(SIGTERM, on_end);
   EmulatedMachine machine(image, nodes, kMailboxes);
+  std::optional<Workbench> bench;
+  if (!options.bench_folder.empty()) bench.emplace(machine, options.bench_folder);
   LocalTime began = monotonic_now();
   BusTime slipped{0}, now{0}, goal{0};
   std::deque<std::pair<BusTime, CanFrame>> incoming;
@@ -67,6 +72,7 @@ std::string run_live(const ElfImage& image, const std::vector<EmulatedNodeOption
       }
       if (done) now = next;
     }
+    if (bench) bench->look(now);
   };
   if (!has_power()) wait_for_power();
   if (goes_on()) std::fprintf(stderr, "kinebus-emulate: power on; %zu boards\n", nodes.size());

@@ -15,6 +15,8 @@ struct LiveOptions {
   BusTime most_behind{0};
   /// The boards have power while this file exists; empty: always. Flash is kept without.
   std::string power_file;
+  /// Where a person's eyes and hands are files (workbench.hpp); empty: nobody looks.
+  std::string bench_folder;
 };
 
 /// Joins the boards to the bus until SIGINT, SIGTERM or the other end of `bus` is gone. Empty: ended well.

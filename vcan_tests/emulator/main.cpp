@@ -5,17 +5,17 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <deque>
 #include <exception>
 #include <string_view>
 #include <utility>
 
 #include "protocol/bytes.hpp"
 #include "protocol/canopen/nmt.hpp"
+#include "vcan_tests/emulator/board_words.hpp"
 #include "vcan_tests/emulator/cost_report.hpp"
-#include "vcan_tests/emulator/ebb_board.hpp"
 #include "vcan_tests/emulator/live_boards.hpp"
 #include "vcan_tests/emulator/live_usb.hpp"
-#include "vcan_tests/emulator/octopus_board.hpp"
 #include "vcan_tests/emulator/paced_boards.hpp"
 
 namespace {
@@ -32,7 +32,7 @@ EmulatedNodeOptions board_of(int node) {
   options.node_id = static_cast<std::uint8_t>(node);
   options.keeps_node_id = true;
   options.board.unique_id = {0x00330045, 0x31365108, 0x36373800u + static_cast<std::uint32_t>(node)};
-  if (node > 2) return options;
+  if (node == 0 || node > 2) return options;
   for (int axis = 0; axis < 2; ++axis) {
     VirtualAxis& a = options.board.axes[static_cast<std::size_t>(axis)];
     a.start_counts = (110 - 2 * node + axis) * kCountsPerMm;
@@ -41,12 +41,6 @@ EmulatedNodeOptions board_of(int node) {
     a.active_above = false;
   }
   return options;
-}
-
-BoardMaker maker_of(std::string_view board) {
-  if (board == "stm32f446_octopus") return &make_board<OctopusBoard>;
-  if (board == "stm32g0b1_ebb") return &make_board<EbbBoard>;
-  return &make_board<Board>;
 }
 
 void advance(EmulatedMachine& machine, BusTime& now, BusTime span) {
@@ -119,15 +113,25 @@ int run(int argc, char** argv) {
   bool paced = false;
   std::string board = "stm32f405";
   app.add_option("--board", board, "What the image is for; without an interface always the F405")
-      ->check(CLI::IsMember({"stm32f405", "stm32f446_octopus", "stm32g0b1_ebb"}))
+      ->check(CLI::IsMember(board_words()))
       ->capture_default_str();
   app.add_flag("--paced", paced,
                "Instead of an interface: the program that has started this one sends and reads frames on the "
                "standard streams, and says how much time passes (paced_boards.hpp)")
       ->excludes(on_interface);
   LiveOptions live;
+  std::vector<std::string> also, switches;
+  app.add_option("--also", also, "Live: a further board of another kind, without node id: KIND=IMAGE");
+  app.add_option("--switch", switches,
+                 "Live: BOARD:MOTOR:INPUT:COUNTS, from 0 on: that input goes high as soon as the motor has "
+                 "turned so far, either way");
+  app.add_option(
+      "--bench", live.bench_folder,
+      "Live: a folder with files for the eyes and hands of a person at the boards (workbench.hpp)");
   app.add_option("--power", live.power_file, "Live: the boards have power while this file exists");
-  app.add_option("-n,--node", nodes, "Node id, given by LSS; once for each board")->check(CLI::Range(1, 126));
+  app.add_option("-n,--node", nodes,
+                 "Node id, given by LSS; once for each board; 0: none, as a new board comes")
+      ->check(CLI::Range(0, 126));
   app.add_option(
          "--late", late_ms,
          "Live: ms that the boards may be late before their time slips; 0 where the computer is slow and "
@@ -154,11 +158,14 @@ int run(int argc, char** argv) {
   }
   if (nodes.empty()) nodes = {1};
   std::vector<EmulatedNodeOptions> boards;
-  boards.reserve(nodes.size());
+  boards.reserve(nodes.size() + also.size());
   for (const int node : nodes) {
     boards.push_back(board_of(node));
     boards.back().make = maker_of(board);
   }
+  std::deque<ElfImage> images;
+  for (const std::string& words : also) boards.push_back(further_board(words, images));
+  for (const std::string& words : switches) wire_switch(words, boards);
   live.most_behind = BusTime{std::llround(late_ms * 1e6)};
   InterfacePort can;
   StreamPort stream;

@@ -124,6 +124,11 @@ bool OctopusBoard::heater_on(int heater) const {
   return ports_[static_cast<std::size_t>(pin.port)].output_high(pin.number);
 }
 
+bool OctopusBoard::fan_on(int fan) const {
+  const stm32::OutputPin pin = octopus::kFanPins[static_cast<std::size_t>(fan)];
+  return ports_[static_cast<std::size_t>(pin.port)].output_high(pin.number);
+}
+
 ServoPulses OctopusBoard::servo() {
   constexpr int kServoPort = 1, kServoPin = 6, kTim4 = 2;
   return servo_pulses(tim4_, ports_[kServoPort], kServoPin, kTim4, false, cpu_.now());

@@ -79,6 +79,7 @@ class OctopusBoard final : public Stm32f4Chip, public UsbSocket {
   HeatedPlaces& heated() { return heated_; }
   /// The pin of one of the heat node's heaters is high now.
   bool heater_on(int heater) const;
+  bool fan_on(int fan) const;  ///< FAN0 to FAN5
   ServoPulses servo();
   /// A pin that gives power to something is driven, and not to its level without.
   bool anything_on() const;

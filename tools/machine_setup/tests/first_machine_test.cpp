@@ -10,6 +10,7 @@
 #include "gateway/description/shipped_machines.hpp"
 #include "gateway/description/tests/uncommented_keys.hpp"
 #include "gateway/jobs/job_plan.hpp"
+#include "tools/machine_setup/demo_print.hpp"
 
 namespace kinebus {
 namespace {
@@ -20,6 +21,7 @@ struct Shipped {
 };
 const Shipped kShipped[] = {
     {"m1_octopus_ebb", {.machine = SetupMachine::kM1, .boards = BoardSet::kOctopusEbb}},
+    {"m1_octopus_ebb_heat", {.machine = SetupMachine::kM1, .boards = BoardSet::kOctopusEbbHeat}},
     {"delta_octopus", {.machine = SetupMachine::kDelta}},
     {"corexy_octopus", {.machine = SetupMachine::kCoreXy}},
     {"cartesian_octopus", {.machine = SetupMachine::kCartesian}},
@@ -30,10 +32,10 @@ constexpr std::string_view kJob =
     "J0 E7\n"
     "G1 X0 Y0 Z8 F6000\nM107\nM104 S0\nM140 S0\n";
 
-std::string problems_of(const MachineDescription& machine) {
+std::string problems_of(const MachineDescription& machine, std::string_view text_of_job = kJob) {
   const auto kinematics = make_kinematics(machine);
   if (!kinematics) return "no kinematics";
-  StringSource source{std::string(kJob)};
+  StringSource source{std::string(text_of_job)};
   JobPlan job(machine, **kinematics, source);
   while (!job.step(1000)) {
   }
@@ -71,7 +73,25 @@ TEST(FirstMachine, EveryMachineOnEverySetLoadsIsTheSameAndPassesAJob) {
         EXPECT_EQ(d.heaters.size(), 2u) << d.name;
         for (const HeaterDescription& heater : d.heaters) EXPECT_TRUE(heater.place.on_node()) << d.name;
         EXPECT_EQ(problems_of(d), "") << d.name;
+        EXPECT_EQ(problems_of(d, demo_print(d)), "") << d.name;
       }
+}
+
+TEST(FirstMachine, ADemoPrintHeatsWhatThereIsAndFeedsNothingWithoutAHotEnd) {
+  const MachineDescription hot = make_description({.machine = SetupMachine::kCartesian});
+  const std::string print = demo_print(hot);
+  for (const char* words : {"M109 S205", "M190 S60", "M106", " E", "M104 S0", "M140 S0"})
+    EXPECT_NE(print.find(words), std::string::npos) << words;
+  MachineDescription cold =
+      make_description({.machine = SetupMachine::kCartesian, .boards = BoardSet::kCards});
+  EXPECT_TRUE(cold.heaters.empty());
+  const std::string dry = demo_print(cold);
+  for (const char* words : {"M104", "M190", "M106", " E"})
+    EXPECT_EQ(dry.find(words), std::string::npos) << words;
+  EXPECT_EQ(problems_of(cold, dry), "");
+  cold = hot;
+  for (HeaterDescription& heater : cold.heaters) heater.max_c = 50;
+  EXPECT_EQ(demo_print(cold).find("S60"), std::string::npos) << "no hotter than the file allows";
 }
 
 TEST(FirstMachine, EachPartIsAtAConnectorOfItsOwn) {

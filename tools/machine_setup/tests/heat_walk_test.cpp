@@ -77,8 +77,58 @@ TEST_F(CardsWithHeat, WithoutTheHeatNodeTheRestIsStillDone) {
   EXPECT_TRUE(said("heat: no heat node 20 (heat node) answers")) << rig.said;
 }
 
+// An Octopus whose heat node is not there, an EBB as heat node: the rig's.
+class OctopusAndEbbHeat : public ::testing::Test {
+ public:
+  OctopusAndEbbHeat() {
+    for (std::uint8_t i = 0; i < 4; ++i)
+      rig.add_board(Stm32f446OctopusBoard::kFacts, 900U + i, static_cast<std::uint8_t>(1 + i));
+    rig.is_octopus = true;
+    rig.wires = {
+        {{0, 0}, {"X", false}}, {{0, 1}, {"Y", false}}, {{1, 0}, {"Z", false}}, {{1, 1}, {"E", false}}};
+    rig.answers = {{"Which machine", {"cartesian"}},
+                   {"Which boards", {"octopus+ebb-heat"}},
+                   {"Fan part", {"run"}},
+                   {"Did it run?", {"yes"}},
+                   {"Heater bed", {"skip"}},
+                   {"Which one got warm?", {"hotend"}}};
+    rig.presses = {
+        {"Switch of X", {{0, 0, true}}}, {"Switch of Y", {{0, 1, true}}}, {"Switch of Z", {{1, 0, true}}}};
+  }
+  SetupRig rig;
+};
+
+TEST_F(OctopusAndEbbHeat, AllMotorsAreTheOctopusAndTheHotEndIsTheEbbs) {
+  rig.add_heat(6);
+  ASSERT_EQ(rig.walk(), 0) << rig.said;
+  for (const char* words : {"EBB: node 6", "Heater hotend: heater and TH0 of the EBB",
+                            "Fan part: FAN2 of the EBB", "Fan hotend_fan: FAN1 of the EBB",
+                            "E: MOTOR3 of the Octopus", "heat: no heat node 5 (Octopus) answers"})
+    EXPECT_NE(rig.said.find(words), std::string::npos) << words << "\n" << rig.said;
+  const auto machine = load_machine(rig.file());
+  ASSERT_TRUE(machine) << to_string(machine.error());
+  for (const HeaterDescription& heater : machine->heaters)
+    EXPECT_EQ(heater.place.node_id, heater.kind == HeaterKind::kHotend ? 6 : 5);
+  EXPECT_EQ(machine->joints.back().node_id, 2);
+  EXPECT_EQ(machine->node(6)->serial, 77u);
+  EXPECT_TRUE(rig.dark());
+  EXPECT_EQ(rig.heat->nmt_state(), NmtState::kPreOperational) << "as the gateway expects it, before its SYNC";
+}
+
+TEST_F(OctopusAndEbbHeat, AnEbbWithTheProgramOfAnAxisIsTold) {
+  rig.add_board(Stm32g0b1EbbBoard::kFacts, 950, 40);
+  rig.answers["Look again?"] = {"n"};
+  EXPECT_EQ(rig.walk(), 1);
+  EXPECT_NE(
+      rig.said.find("(serial number 950, node 40) answers. If that is the EBB, it wants the program for this "
+                    "use: kinebus-flash -i can0 --node 40 --force kinebus-ebb-g0b1-heat.bin"),
+      std::string::npos)
+      << rig.said;
+}
+
 TEST(AnOctopus, IsOneBoardWithItsNodesIdsInARow) {
   SetupRig rig;
+  rig.is_octopus = true;
   // As the board is: its first node has the id, the others follow.
   for (std::uint8_t i = 0; i < 4; ++i)
     rig.add_board(Stm32f446OctopusBoard::kFacts, 900U + i, static_cast<std::uint8_t>(1 + i));

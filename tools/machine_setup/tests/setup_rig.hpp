@@ -113,8 +113,10 @@ class SetupRig {
     std::size_t board;
     int input;
     bool level;
+    bool early = false;  ///< it is pressed already when it is asked for, and let go in the end
   };
   std::map<std::string, std::deque<Press>> presses;  ///< by the joint's name, or "Probe"
+  bool is_octopus = false;  ///< its nodes see the same stops, each from its own on, and the same probe
   std::function<bool()> interrupted;
   std::string said;
   std::vector<std::pair<std::string, std::vector<std::uint8_t>>> flashed;
@@ -163,9 +165,21 @@ class SetupRig {
     for (auto& [name, list] : presses)
       if (question.find(name + ":") != std::string::npos && !list.empty()) {
         press_ = list.front();
+        if (press_->early) set_pin(*press_, press_->level);
         press_at_ = now_ + std::chrono::seconds{2};
         if (list.size() > 1) list.pop_front();
       }
+  }
+
+  void set_pin(const Press& press, bool level) {
+    constexpr int kProbe = 6, kStops = 8;
+    const int stop = 2 * static_cast<int>(press.board) + press.input;
+    for (std::size_t b = 0; b < boards.size(); ++b) {
+      const int place = (stop + kStops - 2 * static_cast<int>(b)) % kStops;
+      const int input = press.input == kProbe ? kProbe : place;
+      if (b == press.board || (is_octopus && input <= kProbe && (input < kProbe || press.input == kProbe)))
+        boards[b].node->on_switch(now_, b == press.board ? press.input : input, level);
+    }
   }
 
   void tell_all(const CanFrame& frame, const Node* but, bool from_heat) {
@@ -178,7 +192,7 @@ class SetupRig {
     constexpr LocalTime kPressed = std::chrono::seconds{1};
     if (press_ && now_ >= press_at_) {
       const bool over = now_ >= press_at_ + kPressed;
-      boards[press_->board].node->on_switch(now_, press_->input, over != press_->level);
+      set_pin(*press_, (over || press_->early) != press_->level);
       if (over) press_.reset();
     }
     for (AxisBoard& board : boards) {

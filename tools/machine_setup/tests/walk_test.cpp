@@ -107,6 +107,13 @@ TEST_F(TwoCards, ASwitchOfAnotherNodeIsSentBackToItsOwn) {
   EXPECT_TRUE(said("That was input 5 of node 1. A joint homes by an input of its own node, 2")) << rig.said;
 }
 
+TEST_F(TwoCards, ASwitchThatWasPressedBeforeItWasAskedForIsAskedForAgain) {
+  rig.presses["Switch of Z"] = {{1, 0, true, true}, {1, 0, true}};
+  ASSERT_EQ(rig.walk(), 0) << rig.said;
+  EXPECT_TRUE(said("input 1 of node 2 has not come back")) << rig.said;
+  EXPECT_FALSE(machine().node(2)->inputs[0].active_low) << "not by the edge of its release";
+}
+
 TEST_F(TwoCards, NonsenseIsRefusedWithPlaceAndRule) {
   rig.answers["Which machine"] = {"core-xy"};
   rig.answers["machine: found"] = {"9", "\x1b[A", "", "3"};
