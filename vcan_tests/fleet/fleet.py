@@ -8,22 +8,14 @@ import shutil
 import signal
 import socket
 import subprocess
+import sys
 import tempfile
 import time
 
-# For machines that are busy with something else; nothing here is measured in it.
-PATIENCE_S = 200
+sys.path.append(str(pathlib.Path(__file__).parent.parent))
+from patience import until  # noqa: E402
+
 POSTGRES = sorted(pathlib.Path("/usr/lib/postgresql").glob("*/bin/postgres"))
-
-
-def until(what, done):
-    end = time.monotonic() + PATIENCE_S
-    while time.monotonic() < end:
-        found = done()
-        if found:
-            return found
-        time.sleep(0.1)
-    raise AssertionError(f"not within {PATIENCE_S} s: {what}")
 
 
 class Process:

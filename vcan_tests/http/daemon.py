@@ -7,21 +7,11 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
+
+sys.path.append(str(pathlib.Path(__file__).parent.parent))
+from patience import PATIENCE_S, until  # noqa: E402
 
 bin_folder = pathlib.Path(sys.argv[1])
-# For machines that are busy with something else; nothing here is measured in it.
-PATIENCE_S = 200
-
-
-def until(what, done):
-    end = time.monotonic() + PATIENCE_S
-    while time.monotonic() < end:
-        found = done()
-        if found:
-            return found
-        time.sleep(0.1)
-    raise AssertionError(f"not within {PATIENCE_S} s: {what}")
 
 
 class Daemon:

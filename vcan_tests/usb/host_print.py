@@ -5,13 +5,15 @@ logging.disable(logging.INFO)
 from printrun import gcoder
 from printrun.printcore import printcore
 
+sys.path.append(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from patience import Patience  # noqa: E402
+
 
 def until(seconds, what, condition):
-    limit = time.monotonic() + seconds
+    patience = Patience(seconds)
     while not condition():
-        if time.monotonic() > limit:
+        if not patience.wait(0.02):
             sys.exit(f"FAILED: no {what} within {seconds} s")
-        time.sleep(0.02)
 
 
 class NoisyLine:
