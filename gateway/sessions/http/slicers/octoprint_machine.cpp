@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "gateway/description/camera_address.hpp"
 #include "gateway/sessions/http/api.hpp"
 #include "gateway/sessions/http/routes.hpp"
 #include "gateway/sessions/http/slicers/octoprint.hpp"
@@ -56,11 +57,28 @@ void current_user(Session& session, std::string_view) {
   session.answer(json_answer(user_json(session.visitor())));
 }
 
+/// The first camera of the machine file, for whoever calls this computer as `host` says; its pictures are
+/// shown as they come.
+Json webcam_json(const joblink::MachineInfo& machine, std::string_view host) {
+  std::string stream, snapshot;
+  if (machine.cameras_size() > 0) {
+    const joblink::Camera& camera = machine.cameras(0);
+    stream = camera_address_from(camera.stream(), host);
+    if (!camera.snapshot().empty()) snapshot = camera_address_from(camera.snapshot(), host);
+  }
+  return {{"webcamEnabled", !stream.empty()},
+          {"streamUrl", stream},
+          {"snapshotUrl", snapshot},
+          {"flipH", false},
+          {"flipV", false},
+          {"rotate90", false}};
+}
+
 void settings(Session& session, std::string_view) {
   session.answer(json_answer({{"api", {{"allowCrossOrigin", false}}},
                               {"appearance", {{"name", machine_info(session).name()}, {"color", "default"}}},
                               {"feature", {{"sdSupport", false}, {"temperatureGraph", true}}},
-                              {"webcam", {{"webcamEnabled", false}, {"streamUrl", ""}, {"snapshotUrl", ""}}},
+                              {"webcam", webcam_json(machine_info(session), session.head().field("Host"))},
                               {"plugins", Json::object()}}));
 }
 

@@ -53,5 +53,28 @@ TEST_F(Cameras, AreToldToMoonrakersClientsWhoMayNotChangeThem) {
   EXPECT_EQ(page.result("server.webcams.list")["webcams"].size(), 3U);
 }
 
+TEST_F(Cameras, TheFirstIsToldToOctoPrintsClients) {
+  const auto webcam = [](HttpRig& of, const std::string& host) {
+    return of.ask("GET /api/settings HTTP/1.1\r\nHost: " + host + "\r\nX-Api-Key: " + kKey + "\r\n\r\n")
+        .json()["webcam"];
+  };
+  const json door = webcam(rig, "kinebus:5000");
+  EXPECT_EQ(door, json({{"webcamEnabled", true},
+                        {"streamUrl", "https://cam.local:8443/s?x=1"},
+                        {"snapshotUrl", ""},
+                        {"flipH", false},
+                        {"flipV", false},
+                        {"rotate90", false}}));
+  MachineDescription machine = default_m1();
+  machine.cameras = {{.name = "nozzle", .stream = ":8081/stream", .snapshot = ":8081/snapshot"}};
+  HttpRig near({}, 32, Users(kKey), machine);
+  const json nozzle = webcam(near, "[::1]:5000");
+  EXPECT_EQ(nozzle["streamUrl"], "http://[::1]:8081/stream");
+  EXPECT_EQ(nozzle["snapshotUrl"], "http://[::1]:8081/snapshot");
+  HttpRig blind;
+  EXPECT_EQ(webcam(blind, "kinebus")["webcamEnabled"], false);
+  EXPECT_EQ(webcam(blind, "kinebus")["streamUrl"], "");
+}
+
 }  // namespace
 }  // namespace kinebus::http
