@@ -24,6 +24,7 @@ constexpr int kInputs = 7;
 
 std::vector<std::string> board_words() {
   std::vector<std::string> words;
+  words.reserve(kKinds.size());
   for (const Kind& kind : kKinds) words.emplace_back(kind.word);
   return words;
 }
