@@ -92,6 +92,8 @@ class WordsTest : public WindowTest {
       for (int tab = 0; tab < (page == MainWindow::kMachine ? kMachineTabs : 1); ++tab) {
         if (page == MainWindow::kMachine) window->machine_page().show_tab(tab);
         QCoreApplication::processEvents();
+        // A status that came last has set words whose places are still to be laid out.
+        QCoreApplication::sendPostedEvents();
         look("page " + std::to_string(page) + " tab " + std::to_string(tab));
       }
     }
