@@ -22,6 +22,7 @@
 #include "protocol/host/inheriting_mutex.hpp"
 #include "protocol/host/quiet_thread.hpp"
 #include "protocol/host/wake_up.hpp"
+#include "protocol/host/write_all.hpp"
 
 namespace kinebus {
 namespace {
@@ -37,17 +38,6 @@ constexpr auto kSyncPeriod = 1s;
 /// A disk that refused is tried again.
 constexpr auto kRetry = 2s;
 constexpr LocalTime kLookForStored = 1ms;
-
-bool write_all(int fd, const std::vector<std::uint8_t>& bytes) {
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t n = ::write(fd, bytes.data() + done, bytes.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    done += static_cast<std::size_t>(n);
-  }
-  return true;
-}
 
 }  // namespace
 

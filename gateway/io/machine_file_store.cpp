@@ -10,21 +10,13 @@
 #include <sstream>
 #include <system_error>
 
+#include "protocol/host/write_all.hpp"
+
 namespace kinebus {
 namespace {
 
 Sentence because(const std::filesystem::path& path) {
   return say("%1: %2", path.string(), std::strerror(errno));
-}
-
-bool write_all(int fd, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t count = ::write(fd, text.data(), text.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(count));
-  }
-  return true;
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ std::optional<StallWatch::Stall> StallWatch::wakes(LocalTime now) {
     why = say("it was stopped, or the computer was");
   before_ = after;
   sampled_ = now;
-  const int policy = ::sched_getscheduler(0);
+  const int policy = ::sched_getscheduler(0) & ~SCHED_RESET_ON_FORK;
   if (policy != SCHED_FIFO && policy != SCHED_RR) why = say("%1; it has no real-time priority", why);
   return Stall{lost, why};
 }

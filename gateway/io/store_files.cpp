@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "gateway/jobs/store/upload_file.hpp"
+#include "protocol/host/write_all.hpp"
 
 namespace kinebus {
 namespace {
@@ -22,16 +23,11 @@ constexpr const char* kWritten = ".serial";
 Result<void, StoreError> write_file(const fs::path& path, std::string_view text) {
   const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0644);
   if (fd < 0) return Error<StoreError>(disk_error(path, errno));
-  while (!text.empty()) {
-    const ssize_t count = ::write(fd, text.data(), text.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) {
-      const StoreError error = disk_error(path, errno);
-      ::close(fd);
-      ::unlink(path.c_str());
-      return Error<StoreError>(error);
-    }
-    text.remove_prefix(static_cast<std::size_t>(count));
+  if (!write_all(fd, text)) {
+    const StoreError error = disk_error(path, errno);
+    ::close(fd);
+    ::unlink(path.c_str());
+    return Error<StoreError>(error);
   }
   ::close(fd);
   return {};

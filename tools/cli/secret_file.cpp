@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "gateway/io/tls_stream.hpp"
+#include "protocol/host/write_all.hpp"
 
 namespace kinebus {
 namespace {
@@ -30,16 +31,6 @@ struct stat owner_of(const std::filesystem::path& file) {
   struct stat found {};
   if (::stat(file.c_str(), &found) != 0 && ::stat(file.parent_path().c_str(), &found) != 0) fail(file);
   return found;
-}
-
-bool write_all(int fd, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t count = ::write(fd, text.data(), text.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(count));
-  }
-  return true;
 }
 
 }  // namespace

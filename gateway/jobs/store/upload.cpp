@@ -12,6 +12,7 @@
 
 #include "gateway/jobs/store/job_store.hpp"
 #include "gateway/jobs/store/upload_file.hpp"
+#include "protocol/host/write_all.hpp"
 #include "protocol/joblink/sha256.hpp"
 
 namespace kinebus {
@@ -297,19 +298,13 @@ Result<UploadProgress, StoreError> JobStore::append(std::uint32_t id, std::uint6
   } else if (too_many) {
     return fail(StoreError::Kind::kOrder, say("more bytes than were announced"));
   }
-  std::string_view rest = bytes;
-  while (!rest.empty()) {
-    const ssize_t count = ::write(upload.fd, rest.data(), rest.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) {
-      const StoreError error = disk_error(partial_of(upload.identity), errno);
-      // A piece that is there in part is taken back: the upload goes on at this piece when there is room.
-      if (::ftruncate(upload.fd, static_cast<off_t>(upload.received_bytes)) != 0 ||
-          ::lseek(upload.fd, static_cast<off_t>(upload.received_bytes), SEEK_SET) < 0)
-        uploads_.erase(found);
-      return Error<StoreError>(error);
-    }
-    rest.remove_prefix(static_cast<std::size_t>(count));
+  if (!write_all(upload.fd, bytes)) {
+    const StoreError error = disk_error(partial_of(upload.identity), errno);
+    // A piece that is there in part is taken back: the upload goes on at this piece when there is room.
+    if (::ftruncate(upload.fd, static_cast<off_t>(upload.received_bytes)) != 0 ||
+        ::lseek(upload.fd, static_cast<off_t>(upload.received_bytes), SEEK_SET) < 0)
+      uploads_.erase(found);
+    return Error<StoreError>(error);
   }
   upload.sum.add(bytes);
   upload.received_bytes += bytes.size();

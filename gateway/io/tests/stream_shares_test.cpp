@@ -1,0 +1,162 @@
+// What a stream may take of the loop's time, whoever it is.
+
+#include <gtest/gtest.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <ctime>
+#include <string>
+
+#include "gateway/io/listener.hpp"
+#include "gateway/io/socket_stream.hpp"
+#include "gateway/io/tests/streams_fixture.hpp"
+#include "gateway/io/tls_stream.hpp"
+
+namespace kinebus {
+namespace {
+
+TEST_F(StreamsTest, SessionsHearThatTheLoopWasAwayButOfNoTrifles) {
+  int absences = 0;
+  Listener listener(loop_, [&](int fd, const std::string&) {
+    hub_.add(std::make_unique<SocketStream>(fd), std::make_unique<Echo>(&closed_, &absences));
+  });
+  ASSERT_EQ(listener.listen_local(folder_.path() / "socket", ""), "");
+  const auto one = connect_local(folder_.path() / "socket"), two = connect_local(folder_.path() / "socket");
+  ASSERT_TRUE(turn_until([&] { return hub_.streams() == 2; }));
+  hub_.on_stall(monotonic_now(), 300ms);
+  EXPECT_EQ(absences, 0);
+  hub_.on_stall(monotonic_now(), 20s);
+  EXPECT_EQ(absences, 2);
+}
+
+/// Uses half a millisecond of the processor, however long the host takes for that.
+void labour() {
+  const auto used = [] {
+    timespec time{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return std::chrono::seconds{time.tv_sec} + std::chrono::nanoseconds{time.tv_nsec};
+  };
+  const auto until = used() + 500us;
+  while (used() < until) {
+  }
+}
+
+/// Takes half a millisecond for whatever it hears.
+class Laborious : public ByteSession {
+ public:
+  explicit Laborious(int* heard) : heard_(heard) {}
+  void on_bytes(LocalTime, std::span<const std::uint8_t>) override {
+    ++*heard_;
+    labour();
+  }
+  void on_time(LocalTime) override {}
+  LocalTime next_deadline() const override { return LocalTime::max(); }
+  std::span<const std::uint8_t> next_bytes() override { return {}; }
+  void on_bytes_sent(std::size_t) override {}
+  bool wants_bytes() const override { return true; }
+  bool ended() const override { return false; }
+  void on_closed(LocalTime, std::string_view) override {}
+
+ private:
+  int* heard_;
+};
+
+// A slow host makes fewer turns: the bound holds on any.
+TEST_F(StreamsTest, AFloodLeavesTheRestOfTheLoopsTimeToOthers) {
+  int heard = 0;
+  StreamHub hub(loop_, {.share = 0.2, .burst = 10ms});
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, ends.data()), 0);
+  ASSERT_TRUE(hub.add(std::make_unique<SocketStream>(ends[0]), std::make_unique<Laborious>(&heard)));
+  const LocalTime begin = monotonic_now();
+  LocalTime now = begin;
+  while (now < begin + LocalTime{400ms} || heard < 20) {
+    [[maybe_unused]] const ssize_t sent = ::send(ends[1], "x", 1, MSG_DONTWAIT);
+    hub.on_time(now);
+    loop_.wait(std::min(hub.next_deadline(), now + LocalTime{1ms}));
+    now = monotonic_now();
+  }
+  const double bound_s = 0.010 + 0.2 * to_seconds(now - begin) + 0.004;
+  EXPECT_LE(heard * 0.0005, bound_s) << heard << " in " << to_seconds(now - begin) << " s";
+  ::close(ends[1]);
+}
+
+// As the one before: who only comes and goes is a flood, too.
+TEST_F(StreamsTest, WhoComesAndGoesLeavesTheRestOfTheLoopsTimeToOthers) {
+  int came = 0;
+  StreamHub hub(loop_, {.share = 0.2, .burst = 10ms});
+  Listener listener(loop_, [&](int fd, const std::string&) {
+    hub.let_in();
+    ++came;
+    labour();
+    ::close(fd);
+  });
+  ASSERT_EQ(listener.listen_tcp("127.0.0.1:0"), "");
+  hub.add_door(listener.fd());
+  const LocalTime begin = monotonic_now();
+  LocalTime now = begin;
+  std::vector<std::unique_ptr<ByteStream>> guests;
+  while (now < begin + LocalTime{400ms} || came < 20) {
+    if (guests.size() < static_cast<std::size_t>(came) + 3)
+      if (const auto fd = connect_tcp("127.0.0.1", std::to_string(listener.port())))
+        guests.push_back(std::make_unique<SocketStream>(*fd));
+    hub.on_time(now);
+    loop_.wait(std::min(hub.next_deadline(), now + LocalTime{1ms}));
+    now = monotonic_now();
+  }
+  const double bound_s = 0.010 + 0.2 * to_seconds(now - begin) + 0.004;
+  EXPECT_LE(came * 0.0005, bound_s) << came << " in " << to_seconds(now - begin) << " s";
+}
+
+/// A byte for each reading, 50 times; each takes longer than the turn has for streams.
+class Morsels : public SocketStream {
+ public:
+  using SocketStream::SocketStream;
+  Moved read(std::span<std::uint8_t> buffer) override {
+    if (++reads_ > 50) return {};
+    const LocalTime until = monotonic_now() + LocalTime{1ms};
+    while (monotonic_now() < until) {
+    }
+    buffer[0] = 'x';
+    return {1, false};
+  }
+
+ private:
+  int reads_ = 0;
+};
+
+TEST_F(StreamsTest, BytesThatComeOneByOneHaveTheTurnsTimeAndNoMore) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, ends.data()), 0);
+  int heard = 0;
+  ASSERT_TRUE(hub_.add(std::make_unique<Morsels>(ends[0]), std::make_unique<Laborious>(&heard)));
+  ASSERT_EQ(::send(ends[1], "x", 1, 0), 1);
+  loop_.wait(monotonic_now());
+  EXPECT_EQ(heard, 1);
+  ::close(ends[1]);
+}
+
+TEST_F(StreamsTest, AHelloInPiecesIsReadPieceByPiece) {
+  const auto tls = TlsContext::server(folder_.path() / "tls");
+  ASSERT_TRUE(tls) << tls.error();
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, ends.data()), 0);
+  // 20,000 records of a byte each: the begin of a hello that says it has 100,000.
+  std::string hello{"\x01\x01\x86\xa0\x03\x03", 6}, records;
+  hello.resize(20'000);
+  for (const char byte : hello) records += std::string("\x16\x03\x01\x00\x01", 5) + byte;
+  ASSERT_EQ(::send(ends[1], records.data(), records.size(), 0), static_cast<ssize_t>(records.size()));
+  const auto stream = tls->open(ends[0]);
+  std::array<std::uint8_t, 1000> buffer;
+  EXPECT_FALSE(stream->read(buffer).closed);
+  int left = 0;
+  ASSERT_EQ(::ioctl(ends[0], FIONREAD, &left), 0);
+  EXPECT_GT(left, static_cast<int>(records.size()) - 1000) << "read at once";
+  EXPECT_LT(left, static_cast<int>(records.size())) << "nothing was read";
+  ::close(ends[1]);
+}
+
+}  // namespace
+}  // namespace kinebus
