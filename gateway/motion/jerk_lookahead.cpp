@@ -19,8 +19,15 @@ constexpr int kHalvings = 20;
 constexpr int kMostHalvings = 200;
 // Times that one stretch may be tried with a higher cap than its lowest.
 constexpr int kRaises = 8;
+// A corner is blended by two pieces, whose caps are the same but for rounding and the joints.
+constexpr std::size_t kBlendPieces = 2;
+constexpr double kOneSpeed = 0.97;
+// So near to a bend no ramp begins.
+constexpr double kBeside_mm = 0.02;
 constexpr PlanPiece::Even kUnbounded{std::numeric_limits<double>::infinity(),
                                      std::numeric_limits<double>::infinity()};
+// Over a bend that takes nearly all of the jerk: no stretch is so long.
+constexpr PlanPiece::Even kNoRamp{1e-9, 1e-9};
 
 }  // namespace
 
@@ -40,23 +47,53 @@ void JerkLookahead::load() {
   leaves_ = std::bit_ceil(std::max<std::size_t>(count, 1));
   starts_.resize(count + 1);
   speeds_.resize(count);
+  ramp_speeds_.resize(count);
   even_.resize(count);
-  even_slow_.resize(count);
   touch_jerk_.resize(count);
   lowest_.assign(2 * leaves_, std::numeric_limits<std::uint32_t>::max());
   starts_[0] = window_at_;
   for (std::size_t i = 0; i < count; ++i) {
     const PlanPiece& piece = path_->piece(first + i);
     starts_[i + 1] = starts_[i] + piece.length;
-    speeds_[i] = std::sqrt(piece.cap);
+    speeds_[i] = ramp_speeds_[i] = std::sqrt(piece.ramp_cap);
     even_[i] = piece.even;
-    even_slow_[i] = piece.even_slow;
     touch_jerk_[i] = piece.touch_jerk;
     lowest_[leaves_ + i] = static_cast<std::uint32_t>(i);
   }
+  find_lone_bends();
   for (std::size_t node = leaves_ - 1; node > 0; --node) {
     const std::uint32_t a = lowest_[2 * node], b = lowest_[2 * node + 1];
     lowest_[node] = b >= count || (a < count && speeds_[a] <= speeds_[b]) ? a : b;
+  }
+}
+
+/// Bends between straight pieces that are faster may be passed at their cap: a ramp has room beside them. In
+/// curves the pieces next to a slow one are hardly faster, and no ramp would lead out of it.
+void JerkLookahead::find_lone_bends() {
+  const auto bends = [&](std::size_t i) {
+    const PlanPiece& piece = path_->piece(path_->first() + i);
+    return piece.cap > piece.ramp_cap;
+  };
+  for (std::size_t a = 0, b = 0; a < speeds_.size(); a = b + 1) {
+    b = a;
+    if (!bends(a)) continue;
+    double slowest = std::numeric_limits<double>::infinity(), fastest = 0;
+    double ramp = slowest;
+    for (;; ++b) {
+      const double speed = std::sqrt(path_->piece(path_->first() + b).cap);
+      slowest = std::min(slowest, speed);
+      fastest = std::max(fastest, speed);
+      ramp = std::min(ramp, ramp_speeds_[b]);
+      if (b + 1 == speeds_.size() || !bends(b + 1)) break;
+    }
+    // What follows is not known yet, or is no straight piece.
+    if (b + 1 == speeds_.size() || b - a >= kBlendPieces || slowest < kOneSpeed * fastest) continue;
+    const auto is_faster = [&](std::size_t i) { return starts_[i + 1] > starts_[i] && speeds_[i] > slowest; };
+    if (!is_faster(b + 1) || (a > 0 && !is_faster(a - 1))) continue;
+    for (std::size_t i = a; i <= b; ++i) {
+      speeds_[i] = slowest;
+      ramp_speeds_[i] = ramp;
+    }
   }
 }
 
@@ -90,10 +127,18 @@ void JerkLookahead::put(double from, double to, const SpeedRamp& ramp, bool capp
 }
 
 bool JerkLookahead::lower(std::size_t i, double speed, PlanPiece::Even& even) const {
-  const PlanPiece::Even& bound = speed <= PlanPiece::kSlow * speeds_[i] ? even_slow_[i] : even_[i];
+  const bool steady = speed > ramp_speeds_[i] && speeds_[i] > ramp_speeds_[i];
+  std::size_t tier = 0;
+  while (tier + 1 < even_[i].size() && speed > PlanPiece::kRampSpeeds[tier] * ramp_speeds_[i]) ++tier;
+  const PlanPiece::Even& bound = steady ? kNoRamp : even_[i][tier];
   if (bound.accel >= even.accel && bound.jerk >= even.jerk) return false;
   even = {std::min(even.accel, bound.accel), std::min(even.jerk, bound.jerk)};
   return true;
+}
+
+/// No ramp to more than `speed` passes piece i.
+bool JerkLookahead::blocks(std::size_t i, double speed) const {
+  return ramp_speeds_[i] < speeds_[i] && speed > kOneSpeed * ramp_speeds_[i];
 }
 
 // Ramps on both sides of a place would meet there, and each millisecond has one acceleration.
@@ -173,8 +218,21 @@ void JerkLookahead::solve_below_caps(const Stretch& stretch, std::size_t first, 
   }
   const double from = std::min(best.cruise_from, stretch.to), to = std::max(best.cruise_to, from);
   put(stretch.from, from, best.up);
-  put(from, to, SpeedRamp(low, low, 1, 1));
-  put(to, stretch.to, best.down);
+  const SpeedRamp steady(low, low, 1, 1);
+  open_.push_back(
+      {.from = to, .to = stretch.to, .v0 = low, .v1 = stretch.v1, .ramp = best.down, .ramped = true});
+  // A bend may be in the way of a higher peak, and not of what is behind it.
+  double begin = from, end = to;
+  std::size_t a = piece_after(begin), b = piece_before(end);
+  if (a < last && !blocks(a, low) && starts_[a + 1] - begin < kBeside_mm) ++a;
+  if (b > first && !blocks(b, low) && end - starts_[b] < kBeside_mm) --b;
+  for (; a <= last && begin < to && blocks(a, low); ++a) begin = std::min(starts_[a + 1], to);
+  for (; b > first && end > begin && blocks(b, low); --b) end = std::max(starts_[b], begin);
+  const bool shorter = begin > stretch.from + kShortest_mm || end < stretch.to - kShortest_mm;
+  if (!(low > 0 && shorter && end - begin > kShortest_mm)) return put(from, to, steady);
+  put(from, begin, steady);
+  open_.push_back({.from = end, .to = to, .v0 = low, .v1 = low, .ramp = steady, .ramped = true});
+  open_.push_back({.from = begin, .to = end, .v0 = low, .v1 = low});
 }
 
 /// Plans one stretch, or gives its parts back to open_, the later ones first.
@@ -191,6 +249,12 @@ void JerkLookahead::solve(const Stretch& stretch) {
   const bool descends = speeds_[slowest] < stretch.v0;
   double cap = std::max(speeds_[slowest], stretch.v1);
   Fit f = fit(stretch, first, last, cap);
+  if (!f.fits && ramp_speeds_[slowest] < speeds_[slowest] &&
+      ramp_speeds_[slowest] > std::max(stretch.v0, stretch.v1)) {
+    // No room beside the bend for ramps to its cap.
+    cap = ramp_speeds_[slowest];
+    f = fit(stretch, first, last, cap);
+  }
   if (!f.fits) return solve_below_caps(stretch, first, last, cap);
   for (int k = 0; k < kRaises && !descends; ++k) {
     if (starts_[slowest + 1] > f.cruise_from) break;
@@ -212,8 +276,11 @@ void JerkLookahead::solve(const Stretch& stretch) {
     from = to;
   } else {
     std::size_t a = slowest, b = slowest;
-    while (a > first && speeds_[a - 1] == cap) --a;
-    while (b < last && speeds_[b + 1] == cap) ++b;
+    const auto same = [&](std::size_t i) {
+      return speeds_[i] == cap || (speeds_[i] == speeds_[slowest] && ramp_speeds_[i] == cap);
+    };
+    while (a > first && same(a - 1)) --a;
+    while (b < last && same(b + 1)) ++b;
     from = std::clamp(starts_[a], from, to);
     to = std::clamp(starts_[b + 1], from, to);
   }

@@ -14,6 +14,7 @@
 // come to be known later may be too near for the speed that was given out, as their own bounds count for the
 // whole ramp to them: then the next ramp of the plan before, which ends in a stop, is kept.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -62,11 +63,13 @@ class JerkLookahead {
   };
 
   void load();
+  void find_lone_bends();
   void plan();
   void solve(const Stretch& stretch);
   Fit fit(const Stretch& stretch, std::size_t first, std::size_t last, double speed) const;
   /// The lower of `even` and of what piece i allows at speeds up to `speed`; false: neither is lower.
   bool lower(std::size_t i, double speed, PlanPiece::Even& even) const;
+  bool blocks(std::size_t i, double speed) const;
   /// What the places at both ends of a stretch allow a ramp that begins or ends there.
   PlanPiece::Even touching_from(const Stretch& stretch, std::size_t first) const;
   PlanPiece::Even touching_to(const Stretch& stretch, std::size_t last) const;
@@ -82,7 +85,8 @@ class JerkLookahead {
   Lookahead* path_;
   // The window, loaded for planning: piece i reaches from starts_[i] to starts_[i + 1].
   std::vector<double> starts_, speeds_;
-  std::vector<PlanPiece::Even> even_, even_slow_;
+  std::vector<double> ramp_speeds_;  ///< the same where it is passed by a ramp
+  std::vector<std::array<PlanPiece::Even, PlanPiece::kRampSpeeds.size()>> even_;
   std::vector<double> touch_jerk_;
   std::vector<std::uint32_t> lowest_;  ///< tournament over speeds_
   std::size_t leaves_ = 0;

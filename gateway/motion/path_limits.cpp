@@ -118,7 +118,8 @@ void PathLimits::begin_jerk(const PieceDemand& demand, const PathPiece& geometry
     JointJerkTerms joints;
     place.accel = kNoAccel;
     place.touch_jerk = kNoAccel * kNoAccel;
-    place.even = place.even_slow = {kNoAccel, place.touch_jerk};
+    place.even.fill({kNoAccel, place.touch_jerk});
+    place.ramp_cap = place.cap;
     if (before_.length > 0 && before_.frame == geometry.frame && jump_terms(geometry, terms, joints))
       limits_.limit_jerk(terms, &joints, place);
     lookahead_->add(place);

@@ -9,6 +9,7 @@
 // between.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -23,14 +24,16 @@ struct PlanPiece {
   double up0 = 0, up1 = 0;      ///< linear part: greatest a at x = 0 and at x = cap
   double down0 = 0, down1 = 0;  ///< the same for -a
   double entry = 0;  ///< look-ahead: greatest x at the start from which the rest of the path is feasible
-  /// Where jerk is limited: greatest path acceleration and jerk, at any speed up to the cap, and up to
-  /// kSlow of it, where the path's curvature takes a much smaller share. A piece without length caps the
-  /// speed at its place and bounds the ramps that touch it.
-  static constexpr double kSlow = 0.7;
+  /// Where jerk is limited: greatest path acceleration and jerk, at any speed up to these shares of
+  /// ramp_cap's: the slower, the less of it the path's curvature takes. Above it, up to the cap, a bend
+  /// is for passing at constant speed. A piece without length caps the speed at its place
+  /// and bounds the ramps that touch it.
+  static constexpr std::array<double, 2> kRampSpeeds{0.7, 1};
   struct Even {
     double accel = 0, jerk = 0;
   };
-  Even even{}, even_slow{};
+  std::array<Even, kRampSpeeds.size()> even{};
+  double ramp_cap = 0;    ///< x; the cap where no bend takes most of the jerk
   double touch_jerk = 0;  ///< of a piece without length: the same for a ramp that begins or ends just there
   std::uint64_t geometry = 0;
   std::uint32_t line = 0;

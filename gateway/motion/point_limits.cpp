@@ -15,9 +15,9 @@ constexpr double kBetweenSamples = 1 + 1e-4;
 // Jerk: the same, and room for a smooth ramp of path time; the tool's tangent and curvature are not quite
 // perpendicular on cubics, either.
 constexpr double kJerkShare = 0.96;
-// Of a jerk limit, what a bend may take at the cap; of an acceleration, what it may take there. The rest is
-// for changing the speed.
-constexpr double kBendJerk = 0.7;
+// Of a jerk limit, what a bend may take at ramp_cap; of an acceleration, what it may take there. The rest is
+// for changing the speed. At the cap a bend may take nearly all of the jerk.
+constexpr double kBendJerk = 0.6, kSteadyJerk = 0.98;
 constexpr double kBendAccel = 0.9;
 // A jump of the acceleration counts as a jerk, as what is sampled each millisecond sees it: third differences
 // weigh it by at most 0.75 / 1 ms. With it a bend may take less of a joint's: next to a ramp that ends just
@@ -240,48 +240,60 @@ PlanPiece::Even PointLimits::even(const JerkTerms& terms, const JointJerkTerms* 
   return even;
 }
 
-void PointLimits::limit_jerk(const JerkTerms& terms, const JointJerkTerms* joints, PlanPiece& piece) const {
-  const double before = piece.cap;
+double PointLimits::bend_cap(double share, const JerkTerms& terms, const JointJerkTerms* joints,
+                             const PlanPiece& piece) const {
   double speed = std::sqrt(piece.cap);
   const double jerk = limits_.tool_jerk_mm_per_s3 * kJerkShare;
-  lower_for_bend(kBendJerk, terms.x3, terms.jump, jerk, speed);
+  lower_for_bend(share, terms.x3, terms.jump, jerk, speed);
   for (std::size_t j = 0; j < joints_ && joints != nullptr; ++j) {
     const double jump = kCurvatureJump_s * jerk_[j];
     if (joints->jump[j] * speed * speed > jump) speed = std::sqrt(jump / joints->jump[j]);
-    lower_for_bend(joints->jump[j] > 0 ? kJumpJerk : kBendJerk, joints->q3[j], joints->jump[j], jerk_[j],
-                   speed);
+    lower_for_bend(joints->jump[j] > 0 ? kJumpJerk : share, joints->q3[j], joints->jump[j], jerk_[j], speed);
   }
-  double cap = std::min(piece.cap, speed * speed);
-  if (piece.curved && piece.k2 * cap * cap > kBendAccel * kBendAccel * piece.accel * piece.accel)
-    cap = kBendAccel * piece.accel / std::sqrt(piece.k2);
+  const double cap = std::min(piece.cap, speed * speed);
+  return piece.curved && piece.k2 * cap * cap > kBendAccel * kBendAccel * piece.accel * piece.accel
+             ? kBendAccel * piece.accel / std::sqrt(piece.k2)
+             : cap;
+}
+
+void PointLimits::limit_jerk(const JerkTerms& terms, const JointJerkTerms* joints, PlanPiece& piece) const {
+  const double before = piece.cap;
+  double cap = bend_cap(kBendJerk, terms, joints, piece);
+  const double steady = piece.length > 0 ? bend_cap(kSteadyJerk, terms, joints, piece) : cap;
   const auto accel_at = [&](double x) {
     return std::min(piece.accel_between(0, x), piece.decel_between(0, x));
   };
   const double least = kLeastAccel * accel_at(0);
   for (int i = 0; i < kLowerings && accel_at(cap) < least; ++i) cap *= kLower;
-  piece.even = even(terms, joints, piece, cap);
-  piece.even_slow = even(terms, joints, piece, cap * PlanPiece::kSlow * PlanPiece::kSlow);
+  for (std::size_t i = 0; i < piece.even.size(); ++i) {
+    const double share = PlanPiece::kRampSpeeds[i];
+    piece.even[i] = even(terms, joints, piece, cap * share * share);
+  }
   if (piece.length == 0) {
     PlanPiece unchanged = piece;
     unchanged.accel = 0;
     piece.touch_jerk = even(terms, joints, unchanged, cap).jerk;
   }
   if (piece.linear) {
-    const double down = cap / before;
+    const double down = steady / before;
     piece.up1 = piece.up0 + (piece.up1 - piece.up0) * down;
     piece.down1 = piece.down0 + (piece.down1 - piece.down0) * down;
   }
-  piece.cap = cap;
+  piece.ramp_cap = cap;
+  piece.cap = steady;
 }
 
 double PointLimits::joint_jerk_ratio(const JointJerkTerms& joints, const PlanPiece& piece) const {
-  const double v = std::sqrt(piece.cap);
+  const double v = std::sqrt(piece.ramp_cap), steady = std::sqrt(piece.cap);
   double ratio = 0;
   for (std::size_t j = 0; j < joints_; ++j) {
-    const double turning = joints.q3[j] * v * v * v;
-    const double fast = joints.q1[j] * piece.even.jerk + 3 * joints.q2[j] * v * piece.even.accel;
-    const double slow = joints.q1[j] * piece.even_slow.jerk + 3 * joints.q2[j] * v * piece.even_slow.accel;
-    ratio = std::max(ratio, (turning + std::max(fast, slow)) / jerk_[j]);
+    const auto size = [&](const PlanPiece::Even& even, double speed) {
+      return joints.q3[j] * speed * speed * speed + joints.q1[j] * even.jerk +
+             3 * joints.q2[j] * speed * even.accel;
+    };
+    double most = size({}, steady);
+    for (const PlanPiece::Even& even : piece.even) most = std::max(most, size(even, v));
+    ratio = std::max(ratio, most / jerk_[j]);
   }
   return ratio;
 }

@@ -93,6 +93,9 @@ class PointLimits {
     return i == kE && dot3(x1, x1) > 0 ? std::min(limits_.axis_accel_per_s2[i], limits_.flow_accel_mm_per_s2)
                                        : limits_.axis_accel_per_s2[i];
   }
+  /// Greatest x at which the path's bends take `share` of the jerk.
+  double bend_cap(double share, const JerkTerms& terms, const JointJerkTerms* joints,
+                  const PlanPiece& piece) const;
   PlanPiece::Even even(const JerkTerms& terms, const JointJerkTerms* joints, const PlanPiece& piece,
                        double x) const;
 

@@ -1,6 +1,5 @@
 // HeatNode: what may be written, and what a write does.
 
-
 #include "node_firmware/heat/heat_node.hpp"
 #include "node_firmware/heat/heat_object_places.hpp"
 
