@@ -80,9 +80,12 @@ struct OctopusStall : testing::Test {
 TEST_F(OctopusStall, FindsItsStopAtTheSamePlaceFromWhereverItBegins) {
   octopus.board.wire_diag(0);
   std::vector<double> zeros;
-  // Free, on the stop itself as homing has left it, and anywhere.
+  // Free, on the stop itself as a homing has just left it (-1), and anywhere.
   for (const int from : {0, -1, 23'456, 9'001, 17'777, 31'234}) {
     if (from > 0) move_to(from);
+    if (from < 0) {
+      ASSERT_TRUE(attained(home()));
+    }
     const std::uint16_t word = home();
     ASSERT_TRUE(attained(word)) << std::hex << word << " from " << std::dec << from << " at "
                                 << octopus.board.true_counts(0) << ", " << octopus.read(0, 0x6064);
