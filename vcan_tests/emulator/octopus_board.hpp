@@ -69,7 +69,11 @@ class OctopusBoard final : public Stm32f4Chip, public UsbSocket {
   const StepDriver& driver(int axis) const { return drivers_[static_cast<std::size_t>(axis)]; }
   Tmc2209& tmc(int axis) { return chips_[static_cast<std::size_t>(axis)]; }
   /// A jumper leads DIAG to the stop beside the driver.
-  void wire_diag(int axis) { diag_wired_[static_cast<std::size_t>(axis)] = true; }
+  void wire_diag(int axis) {
+    diag_wired_[static_cast<std::size_t>(axis)] = true;
+    diag_level_[static_cast<std::size_t>(axis)] = tmc(axis).diag();
+    set_input(axis, tmc(axis).diag());
+  }
   /// Times that a driver and the processor held a wire at different levels, each with force.
   std::uint64_t wire_fights() const { return wire_fights_; }
   void clear_edges() {
