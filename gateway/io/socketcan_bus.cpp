@@ -14,6 +14,8 @@ constexpr int kMaxInFlight = 4;
 constexpr LocalTime kLostAfter = std::chrono::milliseconds{50};
 constexpr LocalTime kFullPause = std::chrono::microseconds{300};
 constexpr LocalTime kNever = LocalTime::max();
+// A USB adapter whose cable was pulled is another interface when it is back.
+constexpr LocalTime kLook = std::chrono::milliseconds{200};
 
 }  // namespace
 
@@ -25,8 +27,9 @@ Result<std::unique_ptr<SocketCanBus>, std::string> SocketCanBus::open(const std:
 }
 
 LocalTime SocketCanBus::next_deadline() const {
-  if (refused_) return full_until_;
-  return in_flight_ > 0 ? last_sent_ + kLostAfter : kNever;
+  const LocalTime look = looks_at_.value_or(kNever);
+  if (refused_) return std::min(look, full_until_);
+  return std::min(look, in_flight_ > 0 ? last_sent_ + kLostAfter : kNever);
 }
 
 bool SocketCanBus::can_send(LocalTime now) {
@@ -49,15 +52,21 @@ void SocketCanBus::send(LocalTime now, const CanFrame& frame) {
   last_sent_ = now;
 }
 
-std::optional<BusPort::Received> SocketCanBus::receive(LocalTime) {
+std::optional<BusPort::Received> SocketCanBus::receive(LocalTime now) {
+  if (looks_at_ && now >= *looks_at_) {
+    looks_at_ = now + kLook;
+    if (socket_.rejoin()) looks_at_.reset();
+  }
   while (auto got = socket_.receive()) {
     switch (got->kind) {
       case SocketCan::Kind::kFrame:
+        looks_at_.reset();  // it is the same one, and up again
         return Received{Received::Kind::kFrame, got->when, got->frame, {}};
       case SocketCan::Kind::kOwn:
         in_flight_ = std::max(0, in_flight_ - 1);
         return Received{Received::Kind::kSent, got->when, got->frame, {}};
       case SocketCan::Kind::kDown:
+        looks_at_ = now + kLook;
         return Received{Received::Kind::kFailure, got->when, {}, "the CAN interface went down"};
       case SocketCan::Kind::kBusError:
         if ((got->error & CAN_ERR_BUSOFF) != 0)

@@ -26,6 +26,7 @@ class SocketCanBus : public BusPort {
   LocalTime last_sent_{0};
   LocalTime full_until_{0};  ///< the kernel's queue was full
   std::optional<CanFrame> refused_;
+  std::optional<LocalTime> looks_at_;  ///< it went down: whether another one has come in its place
 };
 
 }  // namespace kinebus

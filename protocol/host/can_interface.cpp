@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 
 namespace kinebus {
 namespace {
@@ -56,9 +58,21 @@ void read_controller(Bytes data, CanInterface& interface) {
   interface.bus_off = number(data, IFLA_CAN_STATE) == CAN_STATE_BUS_OFF;
 }
 
-std::string settings_of(const std::string& name) {
-  return "ip link set " + name + " down; ip link set " + name +
-         " type can bitrate 1000000 restart-ms 100; ip link set " + name + " up";
+/// gs_usb has no restart of its own and refuses the whole line (before 2025 the kernel takes it, and falls at
+/// the first bus-off): its adapters come back by themselves.
+bool restarts_by_kernel(const CanInterface& interface) {
+  return interface.driver != "gs_usb";
+}
+
+std::string settings_of(const std::string& name, const CanInterface& interface) {
+  return "ip link set " + name + " down; ip link set " + name + " type can bitrate 1000000" +
+         (restarts_by_kernel(interface) ? " restart-ms 100" : "") + "; ip link set " + name + " up";
+}
+
+/// The link ends in the driver's name.
+std::string driver_of(const std::string& name) {
+  std::error_code none;
+  return std::filesystem::read_symlink("/sys/class/net/" + name + "/device/driver", none).filename().string();
 }
 
 }  // namespace
@@ -103,14 +117,16 @@ std::optional<CanInterface> ask_kernel(const std::string& name) {
     count = ::recv(fd, answer.data(), answer.size(), 0);
   ::close(fd);
   if (count <= 0) return std::nullopt;
-  return read_link(Bytes(answer).first(static_cast<std::size_t>(count)));
+  auto interface = read_link(Bytes(answer).first(static_cast<std::size_t>(count)));
+  if (interface) interface->driver = driver_of(name);
+  return interface;
 }
 
 std::string obstacle(const std::string& name, const CanInterface& interface) {
   if (interface.kind != "can") return {};
   if (interface.bit_rate != 0 && interface.bit_rate != kBitRate)
     return "CAN interface " + name + " is set to " + std::to_string(interface.bit_rate) +
-           " bit/s, and every node speaks 1000000: " + settings_of(name);
+           " bit/s, and every node speaks 1000000: " + settings_of(name, interface);
   if (interface.listen_only)
     return "CAN interface " + name + " only listens: ip link set " + name + " down; ip link set " + name +
            " type can listen-only off; ip link set " + name + " up";
@@ -121,12 +137,12 @@ std::vector<std::string> advice(const std::string& name, const CanInterface& int
   std::vector<std::string> words;
   const bool controller = interface.kind == "can";
   if (!interface.up)
+    words.push_back("CAN interface " + name + " is down: " +
+                    (controller ? settings_of(name, interface) : "ip link set " + name + " up"));
+  if (controller && interface.up && interface.restart_ms == 0 && restarts_by_kernel(interface))
     words.push_back("CAN interface " + name +
-                    " is down: " + (controller ? settings_of(name) : "ip link set " + name + " up"));
-  if (controller && interface.up && interface.restart_ms == 0)
-    words.push_back(
-        "CAN interface " + name +
-        " stays off after a bus-off (restart-ms is 0), and the machine with it: " + settings_of(name));
+                    " stays off after a bus-off (restart-ms is 0), and the machine with it: " +
+                    settings_of(name, interface));
   if (controller && interface.bus_off)
     words.push_back("CAN interface " + name +
                     " is bus-off: are both ends of the bus terminated, CAN high and low not exchanged, all "

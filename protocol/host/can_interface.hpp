@@ -12,6 +12,7 @@ namespace kinebus {
 struct CanInterface {
   std::string kind;  ///< "can": a controller; "vcan", "vxcan": no wire, and so no bit rate
   bool up = false;
+  std::string driver;                ///< the kernel's, such as "gs_usb"; empty: none, or not told
   std::uint32_t transmit_queue = 0;  ///< txqueuelen, frames; without a wire none is needed
   // Of a controller; 0: not set, or not told by its driver.
   std::uint32_t bit_rate = 0;    ///< bit/s

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "protocol/can/frame.hpp"
+#include "protocol/host/hardware_clock.hpp"
 #include "protocol/time.hpp"
 
 namespace kinebus {
@@ -16,7 +17,8 @@ namespace kinebus {
 LocalTime monotonic_now();
 
 /// One raw CAN socket, non-blocking. Frames come with the kernel's receive time mapped to monotonic_now()'s
-/// clock; own frames come back when they were really sent.
+/// clock, or with the adapter's own time stamp where it has them; own frames come back when they were really
+/// sent.
 class SocketCan {
  public:
   enum class Kind : std::uint8_t {
@@ -45,6 +47,10 @@ class SocketCan {
   /// Empty string: open. Otherwise what is wrong and what to do. `own_frames`: report own frames when sent.
   std::string open(const std::string& interface, bool own_frames);
 
+  /// The interface of that name that has come in the place of one that was taken away, as a USB adapter's
+  /// when its cable is back; all frames are passed on. False: there is none, or it is the same as before.
+  bool rejoin();
+
   /// Standard frames, data or remote, whose identifier is `value` where `mask` has ones.
   struct Accept {
     std::uint16_t value = 0, mask = 0x7FF;
@@ -63,7 +69,12 @@ class SocketCan {
   const Counters& counters() const { return counters_; }
 
  private:
+  bool take_place(unsigned index);
+
   int fd_ = -1;
+  std::string interface_;
+  unsigned index_ = 0;
+  HardwareClock hardware_;
   Counters counters_;
 };
 

@@ -1,27 +1,74 @@
 // Preloaded into a program, its clocks go $KINEBUS_SLOW times slower than this machine's: QEMU's guest and
-// what runs beside it have more of the processor for each second of theirs (tools/vm/run --slow).
+// what runs beside it have more of the processor for each second of theirs (tools/vm/run --slow). What runs
+// beside may hold them for both while it is behind, through the file $KINEBUS_SLOW_CLOCK that both map.
 #define _GNU_SOURCE
+#include <fcntl.h>
+#include <stdatomic.h>
 #include <stdlib.h>
+#include <sys/mman.h>
 #include <sys/syscall.h>
 #include <time.h>
 #include <unistd.h>
 
 enum { kSecond = 1000000000 };
 
-static long slower(void) {
-  static long times = 0;
-  if (times == 0) {
-    const char* const said = getenv("KINEBUS_SLOW");
-    times = said != NULL && atol(said) > 1 ? atol(said) : 1;
-  }
-  return times;
+struct Common {
+  _Atomic long long until_ns;  // CLOCK_MONOTONIC goes no farther; 0: it does
+  _Atomic long long stood_ns;  // for so long all clocks have stood
+};
+static struct Common alone;
+static struct Common* common = &alone;
+static long times = 1;
+
+__attribute__((constructor)) static void begin(void) {
+  const char* const said = getenv("KINEBUS_SLOW");
+  if (said != NULL && atol(said) > 1) times = atol(said);
+  const char* const path = getenv("KINEBUS_SLOW_CLOCK");
+  const int fd = path != NULL ? open(path, O_RDWR | O_CLOEXEC) : -1;
+  if (fd < 0) return;
+  void* const shared = mmap(NULL, sizeof alone, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+  if (shared != MAP_FAILED) common = shared;
+  close(fd);
+}
+
+static long long slowed(clockid_t clock) {
+  struct timespec at = {0};
+  syscall(SYS_clock_gettime, clock, &at);
+  return ((long long)at.tv_sec * kSecond + at.tv_nsec) / times;
+}
+
+struct Held {
+  long long until_ns, stood_ns;
+};
+// Before a clock is read, or it might be older than what it is compared with. The limit first: it is written
+// last.
+static struct Held held(void) {
+  struct Held now;
+  now.until_ns = atomic_load(&common->until_ns);
+  now.stood_ns = atomic_load(&common->stood_ns);
+  return now;
+}
+
+// For so long all clocks have stood, when CLOCK_MONOTONIC would be `here` without.
+static long long stood_at(long long here, struct Held by) {
+  return by.until_ns != 0 && here - by.stood_ns > by.until_ns ? here - by.until_ns : by.stood_ns;
+}
+
+// For one of the programs, found by its name: no clock goes beyond this of CLOCK_MONOTONIC, or beyond where
+// it is already, until it is called again; 0: all go on.
+void kinebus_hold_clock(long long until_ns) {
+  const struct Held by = held();
+  const long long here = slowed(CLOCK_MONOTONIC), stood = stood_at(here, by);
+  atomic_store(&common->stood_ns, stood);
+  atomic_store(&common->until_ns, until_ns == 0 || until_ns > here - stood ? until_ns : here - stood);
 }
 
 int clock_gettime(clockid_t clock, struct timespec* at) {
-  const long status = syscall(SYS_clock_gettime, clock, at);
   const int counts_time = clock == CLOCK_MONOTONIC || clock == CLOCK_MONOTONIC_RAW || clock == CLOCK_REALTIME;
-  if (status != 0 || !counts_time) return (int)status;
-  const long long ns = ((long long)at->tv_sec * kSecond + at->tv_nsec) / slower();
+  if (!counts_time) return (int)syscall(SYS_clock_gettime, clock, at);
+  const struct Held by = held();
+  const long long asked = slowed(clock);
+  const long long ns = asked - stood_at(clock == CLOCK_MONOTONIC ? asked : slowed(CLOCK_MONOTONIC), by);
   at->tv_sec = (time_t)(ns / kSecond);
   at->tv_nsec = (long)(ns % kSecond);
   return 0;

@@ -1,39 +1,13 @@
 #include "vcan_tests/can_port/can_port.hpp"
 
-#include <fcntl.h>
-#include <sys/socket.h>
-#include <sys/stat.h>
-#include <sys/un.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
+#include <span>
 #include <utility>
 
 #include "protocol/host/kernel_frame.hpp"
 
 namespace kinebus {
-namespace {
-
-std::string because(const std::string& path, const char* what) {
-  return path + ": " + what + ": " + std::strerror(errno);
-}
-
-/// A Unix socket's address; empty family: the path is too long.
-sockaddr_un address_of(const std::string& path) {
-  sockaddr_un address{};
-  if (path.size() >= sizeof address.sun_path) return address;
-  address.sun_family = AF_UNIX;
-  std::copy(path.begin(), path.end(), address.sun_path);
-  return address;
-}
-
-std::string too_long(const std::string& path) {
-  return path + ": a Unix socket's path has at most 103 characters";
-}
-
-}  // namespace
 
 void CanPort::close(std::string trouble) {
   if (closed_) return;
@@ -66,75 +40,6 @@ pollfd InterfacePort::waits_for(bool frames) const {
   return {can_.fd(), static_cast<short>(frames ? POLLIN : 0), 0};
 }
 
-StreamPort::StreamPort(int fd) {
-  take(fd);
-}
-
-StreamPort::~StreamPort() {
-  if (listener_ >= 0) ::close(listener_);
-  if (fd_ >= 0) ::close(fd_);
-}
-
-void StreamPort::take(int fd) {
-  static_assert(sizeof(can_frame) == kFrameBytes);
-  fd_ = fd;
-  ::fcntl(fd, F_SETFL, ::fcntl(fd, F_GETFL) | O_NONBLOCK);
-  struct stat kind {};
-  socket_ = ::fstat(fd, &kind) == 0 && S_ISSOCK(kind.st_mode);
-}
-
-std::string StreamPort::open(const std::string& path) {
-  struct stat kind {};
-  if (::stat(path.c_str(), &kind) != 0) return because(path, "the other end of the bus");
-  if (!S_ISSOCK(kind.st_mode)) {
-    const int fd = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK);
-    if (fd < 0) return because(path, "cannot be opened");
-    take(fd);
-    return {};
-  }
-  const sockaddr_un address = address_of(path);
-  if (address.sun_family == 0) return too_long(path);
-  const int fd = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (fd < 0) return because(path, "no socket");
-  std::string error;
-  if (::connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
-    take(fd);
-  } else {
-    error = because(path, "nobody listens");
-    ::close(fd);
-  }
-  return error;
-}
-
-std::string StreamPort::listen_at(const std::string& path) {
-  // Under its own name only when it listens: who sees it can connect.
-  const std::string before = path + ".new";
-  const sockaddr_un address = address_of(before);
-  if (address.sun_family == 0) return too_long(path);
-  const int listener = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (listener < 0) return because(path, "no socket");
-  ::unlink(before.c_str());
-  if (::bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
-      ::listen(listener, 1) != 0 || ::rename(before.c_str(), path.c_str()) != 0) {
-    std::string error = because(path, "the socket cannot be made");
-    ::close(listener);
-    return error;
-  }
-  path_ = path;
-  listener_ = listener;
-  return {};
-}
-
-std::string StreamPort::wait() {
-  int fd = -1;
-  while (fd < 0 && (fd = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC)) < 0 && errno == EINTR) {
-  }
-  if (fd < 0) return because(path_, "nobody came");
-  ::close(std::exchange(listener_, -1));
-  take(fd);
-  return {};
-}
-
 bool StreamPort::send(const CanFrame& frame) {
   if (closed()) return false;
   if (out_.size() - out_end_ < kFrameBytes) flush();
@@ -146,19 +51,12 @@ bool StreamPort::send(const CanFrame& frame) {
 }
 
 void StreamPort::flush() {
-  while (!closed() && out_begin_ < out_end_) {
-    const std::uint8_t* const from = out_.data() + out_begin_;
-    const std::size_t size = out_end_ - out_begin_;
-    const ssize_t count = socket_ ? ::send(fd_, from, size, MSG_NOSIGNAL) : ::write(fd_, from, size);
-    if (count > 0)
-      out_begin_ += static_cast<std::size_t>(count);
-    else if (count < 0 && (errno == EPIPE || errno == ECONNRESET))
-      close({});
-    else if (count < 0 && errno != EINTR && errno != EAGAIN)
-      close(std::string("frames cannot be written: ") + std::strerror(errno));
-    else if (count == 0 || errno == EAGAIN)
-      break;
+  while (out_begin_ < out_end_) {
+    const std::size_t count = stream_.write(std::span(out_).subspan(out_begin_, out_end_ - out_begin_));
+    if (count == 0) break;
+    out_begin_ += count;
   }
+  if (stream_.closed()) close(stream_.trouble());
   std::copy(out_.data() + out_begin_, out_.data() + out_end_, out_.data());
   out_end_ -= out_begin_;
   out_begin_ = 0;
@@ -166,19 +64,17 @@ void StreamPort::flush() {
 
 /// Reads until a whole frame is there. False: not yet, or never.
 bool StreamPort::fill() {
+  static_assert(sizeof(can_frame) == kFrameBytes);
   std::copy(in_.data() + in_begin_, in_.data() + in_end_, in_.data());
   in_end_ -= in_begin_;
   in_begin_ = 0;
   while (!closed() && in_end_ < kFrameBytes) {
-    const ssize_t count = ::read(fd_, in_.data() + in_end_, in_.size() - in_end_);
-    if (count > 0)
-      in_end_ += static_cast<std::size_t>(count);
-    else if (count == 0 || errno == ECONNRESET)
-      close(in_end_ == 0 ? "" : "the stream ended within a frame");
-    else if (errno == EAGAIN)
-      return false;
-    else if (errno != EINTR)
-      close(std::string("frames cannot be read: ") + std::strerror(errno));
+    const std::size_t count = stream_.read(std::span(in_).subspan(in_end_));
+    in_end_ += count;
+    if (count == 0 && !stream_.closed()) return false;
+    if (stream_.closed())
+      close(in_end_ == 0 || !stream_.trouble().empty() ? stream_.trouble()
+                                                       : "the stream ended within a frame");
   }
   return in_end_ >= kFrameBytes;
 }
@@ -198,7 +94,7 @@ std::optional<CanPort::Received> StreamPort::receive() {
 
 pollfd StreamPort::waits_for(bool frames) const {
   const int events = (frames ? POLLIN : 0) | (out_end_ > out_begin_ ? POLLOUT : 0);
-  return {fd_, static_cast<short>(events), 0};
+  return {stream_.fd(), static_cast<short>(events), 0};
 }
 
 std::uint64_t OneWay::pass(CanPort& from, CanPort& to) {

@@ -12,6 +12,7 @@
 #include "protocol/can/frame.hpp"
 #include "protocol/host/socketcan.hpp"
 #include "protocol/time.hpp"
+#include "vcan_tests/can_port/peer_stream.hpp"
 
 namespace kinebus {
 
@@ -65,21 +66,18 @@ class InterfacePort final : public CanPort {
   SocketCan can_;
 };
 
-/// Frames as struct can_frame (16 bytes, this computer's byte order) on a byte stream, either way: a Unix
-/// socket or, in a guest, a virtio-serial port. Received frames have the time at which they were read.
+/// Frames as struct can_frame (16 bytes, this computer's byte order) on a byte stream, either way. Received
+/// frames have the time at which they were read.
 class StreamPort final : public CanPort {
  public:
   StreamPort() = default;
   /// Takes the descriptor.
-  explicit StreamPort(int fd);
-  ~StreamPort() override;
+  explicit StreamPort(int fd) : stream_(fd) {}
 
-  /// A Unix socket that somebody listens at, or a device. Empty: open. Otherwise what is wrong.
-  std::string open(const std::string& path);
-  /// Makes the Unix socket: who sees it can open() it from now on. Empty: made. Otherwise what is wrong.
-  std::string listen_at(const std::string& path);
-  /// After listen_at(): waits for the one who connects. Empty: open. Otherwise what is wrong.
-  std::string wait();
+  // As PeerStream has them.
+  std::string open(const std::string& path) { return stream_.open(path); }
+  std::string listen_at(const std::string& path) { return stream_.listen_at(path); }
+  std::string wait() { return stream_.wait(); }
 
   bool send(const CanFrame& frame) override;
   void flush() override;
@@ -88,12 +86,9 @@ class StreamPort final : public CanPort {
 
  private:
   static constexpr std::size_t kFrameBytes = 16;
-  void take(int fd);
   bool fill();
 
-  std::string path_;
-  int listener_ = -1, fd_ = -1;
-  bool socket_ = false;
+  PeerStream stream_;
   std::array<std::uint8_t, 256 * kFrameBytes> in_{}, out_{};
   std::size_t in_begin_ = 0, in_end_ = 0, out_begin_ = 0, out_end_ = 0;
 };

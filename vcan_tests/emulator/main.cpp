@@ -94,6 +94,18 @@ void report(const ElfImage& image, double turns_per_s, double seconds) {
   if (const std::string text = board.console().take_sent(); !text.empty()) fmt::print("console:\n{}\n", text);
 }
 
+/// The first board's USB at this computer's, or at that of who connects to the Unix socket.
+int run_at_usb(const ElfImage& image, const std::vector<EmulatedNodeOptions>& boards,
+               const std::string& socket, const LiveOptions& live) {
+  OwnUsb own;
+  StreamedUsb streamed;
+  std::string error = socket.empty() ? "" : streamed.open(socket);
+  if (error.empty())
+    error = run_usb(image, boards, socket.empty() ? static_cast<UsbLine&>(own) : streamed, live);
+  if (!error.empty()) std::fprintf(stderr, "kinebus-emulate: %s\n", error.c_str());
+  return error.empty() ? 0 : 1;
+}
+
 int run(int argc, char** argv) {
   CLI::App app{
       "Runs the firmware's image on emulated boards.\n"
@@ -140,19 +152,15 @@ int run(int argc, char** argv) {
       ->capture_default_str();
   bool usb = false;
   app.add_flag("--usb", usb,
-               "The board's USB connector at this computer's vhci_hcd: runs live until stopped");
+               "The first board's USB connector at this computer's vhci_hcd, or with --socket at that of the "
+               "socket's guest (kinebus-usb-port): runs live until stopped");
   app.add_option("--speed", speed, "Report: turns a second")->capture_default_str();
   app.add_option("--seconds", seconds, "Report: measured so long")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   ElfImage image = load_elf(file);
   if (!boot.empty())
     for (ElfImage::Piece& piece : load_elf(boot).pieces) image.pieces.push_back(std::move(piece));
-  if (usb) {
-    const std::string error = run_usb(image, board_of(nodes.empty() ? 1 : nodes.front()));
-    if (!error.empty()) std::fprintf(stderr, "kinebus-emulate: %s\n", error.c_str());
-    return error.empty() ? 0 : 1;
-  }
-  if (interface.empty() && socket.empty() && !paced) {
+  if (interface.empty() && socket.empty() && !paced && !usb) {
     report(image, speed, seconds);
     return 0;
   }
@@ -174,6 +182,7 @@ int run(int argc, char** argv) {
     if (!trouble.empty()) std::fprintf(stderr, "kinebus-emulate: %s\n", trouble.c_str());
     return trouble.empty() ? 0 : 1;
   }
+  if (usb) return run_at_usb(image, boards, socket, live);
   std::string error = socket.empty() ? can.open(interface) : stream.listen_at(socket);
   if (error.empty() && !socket.empty()) error = stream.wait();
   if (error.empty())

@@ -1,20 +1,14 @@
 #include "vcan_tests/emulator/usb_cable.hpp"
 
-#include <sys/socket.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
-#include <fstream>
 
 namespace kinebus::emulator {
 namespace {
 
 using Answer = OtgHs::Answer;
 
-constexpr const char* kAttach = "/sys/devices/platform/vhci_hcd.0/attach";
-constexpr int kAddress = 1, kFullSpeed = 2, kDevice = 0x10001;
+constexpr int kAddress = 1;
 constexpr std::size_t kHeader = 48, kPacket = 64;
 constexpr std::uint32_t kSubmit = 1, kUnlink = 2, kSubmitted = 3, kUnlinked = 4;
 constexpr std::array<std::uint8_t, 8> kSetAddress{0x00, 5, kAddress, 0, 0, 0, 0, 0};
@@ -31,27 +25,8 @@ void set_word(std::vector<std::uint8_t>& bytes, std::size_t index, std::uint32_t
 
 }  // namespace
 
-void UsbCable::plug() {
-  std::array<int, 2> ends{};
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-    error_ = std::string("socketpair: ") + std::strerror(errno);
-    return;
-  }
-  std::ofstream attach(kAttach);
-  attach << 0 << ' ' << ends[1] << ' ' << kDevice << ' ' << kFullSpeed << std::flush;
-  const bool good = attach.good();
-  ::close(ends[1]);
-  if (!good) {
-    ::close(ends[0]);
-    error_ = std::string(kAttach) + ": cannot attach (modprobe vhci-hcd, as root)";
-    return;
-  }
-  fd_ = ends[0];
-}
-
 void UsbCable::pull() {
-  if (fd_ >= 0) ::close(fd_);
-  fd_ = -1;
+  line_.detach();
   addressed_ = false;
   address_step_ = out_toggle_ = 0;
   urbs_.clear();
@@ -61,24 +36,23 @@ void UsbCable::pull() {
 // Linux keeps SET_ADDRESS to itself where the bus is virtual.
 void UsbCable::give_address() {
   OtgHs& usb = board_.usb();
-  constexpr int kSettled = 100;
+  constexpr int kSettled = 200;  // turns: 10 ms
   if (address_step_ == 0) usb.bus_reset();
   if (address_step_ == kSettled && usb.setup(0, kSetAddress) != Answer::kAck) return;
   if (address_step_ > kSettled && usb.in(0, 0).answer == Answer::kAck) addressed_ = true;
   ++address_step_;
 }
 
-void UsbCable::serve() {
-  if (!error_.empty()) return;
-  if (!board_.usb_device_seen()) {
-    pull();
-    return;
-  }
+void UsbCable::serve(BusTime now, BusTime sent) {
+  if (!line_.error().empty()) return;
+  const bool still = line_.receive(input_);
+  if (line_.plugged() != plugged_) board_.set_usb_cable(plugged_ = line_.plugged());
+  if (!plugged_ || !still || !board_.usb_device_seen()) return pull();
   if (!addressed_) return give_address();
-  if (fd_ < 0) return plug();
-  if (!read_requests()) return pull();
+  if (!line_.attached()) return line_.attach();
+  take_requests(sent);
   std::array<bool, 16> busy{};
-  for (auto urb = urbs_.begin(); urb != urbs_.end();) {
+  for (auto urb = urbs_.begin(); urb != urbs_.end() && urb->due <= now;) {
     const auto endpoint = static_cast<std::size_t>(urb->endpoint);
     bool& taken = busy[endpoint * 2 + (urb->in && endpoint != 0 ? 1 : 0)];
     int status = 0;
@@ -93,29 +67,18 @@ void UsbCable::serve() {
   }
 }
 
-bool UsbCable::read_requests() {
-  std::array<std::uint8_t, 4096> bytes{};
-  for (;;) {
-    const ssize_t count = ::recv(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT);
-    if (count == 0) return false;
-    if (count < 0) {
-      if (errno != EAGAIN && errno != EINTR) return false;
-      break;
-    }
-    input_.insert(input_.end(), bytes.begin(), bytes.begin() + count);
-  }
+void UsbCable::take_requests(BusTime sent) {
   while (input_.size() >= kHeader) {
     const bool carries = word(input_, 0) == kSubmit && word(input_, 3) == 0;
     const std::size_t whole = kHeader + (carries ? word(input_, 6) : 0);
     if (input_.size() < whole) break;
     const auto end = input_.begin() + static_cast<std::ptrdiff_t>(whole);
-    take({input_.begin(), end});
+    take({input_.begin(), end}, sent);
     input_.erase(input_.begin(), end);
   }
-  return true;
 }
 
-void UsbCable::take(const std::vector<std::uint8_t>& request) {
+void UsbCable::take(const std::vector<std::uint8_t>& request, BusTime sent) {
   const std::uint32_t sequence = word(request, 1);
   if (word(request, 0) == kUnlink) {
     const std::uint32_t which = word(request, 5);
@@ -125,9 +88,10 @@ void UsbCable::take(const std::vector<std::uint8_t>& request) {
     set_word(reply, 1, sequence);
     set_word(reply, 5, found == urbs_.end() ? 0 : static_cast<std::uint32_t>(-ECONNRESET));
     if (found != urbs_.end()) urbs_.erase(found);
-    return send(reply);
+    return line_.send(reply);
   }
   Urb urb;
+  urb.due = sent;
   urb.sequence = sequence;
   urb.in = word(request, 3) == 1;
   urb.endpoint = static_cast<int>(word(request, 4) & 7);
@@ -202,12 +166,7 @@ void UsbCable::finish(const Urb& urb, int status) {
   set_word(reply, 5, static_cast<std::uint32_t>(status));
   set_word(reply, 6, static_cast<std::uint32_t>(urb.in ? urb.data.size() : urb.sent));
   if (urb.in) reply.insert(reply.end(), urb.data.begin(), urb.data.end());
-  send(reply);
-}
-
-void UsbCable::send(const std::vector<std::uint8_t>& bytes) {
-  if (::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL) != static_cast<ssize_t>(bytes.size()))
-    error_ = std::string("USB/IP: ") + std::strerror(errno);
+  line_.send(reply);
 }
 
 }  // namespace kinebus::emulator

@@ -1,7 +1,6 @@
 #pragma once
-// A cable from an emulated board's USB connector to this computer: Linux's vhci_hcd takes it for a device of
-// its own (USB/IP over a socket pair), so that the real cdc_acm enumerates the image and makes a /dev/ttyACM
-// of it.
+// A cable from an emulated board's USB connector to a computer that speaks USB/IP, so that Linux's real
+// drivers enumerate the image: cdc_acm makes a /dev/ttyACM of it, gs_usb a can0.
 
 #include <array>
 #include <cstdint>
@@ -9,26 +8,29 @@
 #include <string>
 #include <vector>
 
+#include "protocol/time.hpp"
+#include "vcan_tests/emulator/usb_line.hpp"
 #include "vcan_tests/emulator/usb_socket.hpp"
 
 namespace kinebus::emulator {
 
 class UsbCable {
  public:
-  explicit UsbCable(UsbSocket& board) : board_(board) {}
+  /// A packet each way takes so long at 12 Mbit/s.
+  static constexpr BusTime kTurn = std::chrono::microseconds{50};
+
+  UsbCable(UsbSocket& board, UsbLine& line) : board_(board), line_(line) {}
   ~UsbCable() { pull(); }
   UsbCable(const UsbCable&) = delete;
   UsbCable& operator=(const UsbCable&) = delete;
 
-  /// Call after each piece of the board's time, 100 us or so: a transaction for whoever waits. Attaches when
-  /// the board's device is there, detaches when it goes.
-  void serve();
-  /// What does not work here, such as no vhci_hcd; empty: nothing.
-  const std::string& error() const { return error_; }
-  int fd() const { return fd_; }
+  /// Call after each kTurn of the board's time: a transaction for whoever waits. What comes from the computer
+  /// now has been sent at `sent` of the board's time, which is not before `now` where the board is late.
+  void serve(BusTime now, BusTime sent);
 
  private:
   struct Urb {
+    BusTime due{0};
     std::uint32_t sequence = 0;
     int endpoint = 0;
     bool in = false;
@@ -39,23 +41,20 @@ class UsbCable {
     std::size_t sent = 0;
     int toggle = 1;  // of the control endpoint
   };
-  void plug();
   void pull();
   void give_address();
-  bool read_requests();
-  void take(const std::vector<std::uint8_t>& header);
+  void take_requests(BusTime sent);
+  void take(const std::vector<std::uint8_t>& request, BusTime sent);
   /// True: done, with this status.
   bool advance(Urb& urb, int& status);
   bool advance_in(Urb& urb, int& status);
   bool advance_out(Urb& urb, int& status);
   void finish(const Urb& urb, int status);
   void note_toggles(const Urb& urb);
-  void send(const std::vector<std::uint8_t>& bytes);
 
   UsbSocket& board_;
-  std::string error_;
-  int fd_ = -1;
-  bool addressed_ = false;
+  UsbLine& line_;
+  bool plugged_ = false, addressed_ = false;
   int address_step_ = 0;
   std::vector<std::uint8_t> input_;
   std::deque<Urb> urbs_;

@@ -92,6 +92,22 @@ TEST(CanInterface, WhatWillBeMissedIsSaidWithTheCommand) {
   EXPECT_NE(down[0].find("is down"), std::string::npos);
 }
 
+// Linux refuses restart-ms there, and with it all that stands in the same line.
+TEST(CanInterface, OfGsUsbNothingIsAskedThatItsDriverDoesNotHave) {
+  CanInterface can = read(told(1'000'000, 0, 10));
+  can.driver = "gs_usb";
+  EXPECT_TRUE(advice("can0", can).empty());
+  can.bit_rate = 500'000;
+  EXPECT_EQ(obstacle("can0", can),
+            "CAN interface can0 is set to 500000 bit/s, and every node speaks 1000000: ip link set can0 "
+            "down; ip link set can0 type can bitrate 1000000; ip link set can0 up");
+  can.up = false;
+  EXPECT_EQ(
+      advice("can0", can).at(0),
+      "CAN interface can0 is down: ip link set can0 down; ip link set can0 type can bitrate 1000000; ip "
+      "link set can0 up");
+}
+
 TEST(CanInterface, AWrongAnswerIsNoneOrAnEmptyOne) {
   const Bytes good = told(1'000'000, 100, 10);
   for (std::size_t size = 0; size < good.size(); ++size)
