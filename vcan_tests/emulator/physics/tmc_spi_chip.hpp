@@ -1,5 +1,5 @@
 #pragma once
-// A TMC5160 or TMC2130 with its motor, after their datasheets (rev. 1.17 and 1.09): SPI with its times and
+// A TMC5160 or TMC2130 with its motor, after their datasheets (rev. 1.01 and 1.09): SPI with its times and
 // answers one datagram late, registers, chopper modes, currents, StallGuard2, and what it finds out about
 // motor, heat and supply. A judge: what the datasheet forbids is counted.
 
