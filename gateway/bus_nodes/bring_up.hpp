@@ -106,6 +106,7 @@ class BringUp {
   void settle(BusTime now, NodeLink& link, Node& node);
   void parameters_are_right(Node& node);
   void compare(NodeLink& link, Node& node);
+  void check_load_sensor(const NodeLink& link, const SdoResult& answer);
   void check_fingerprint(NodeLink& link, Node& node, std::uint32_t fingerprint);
   void operational(BusTime now, NodeLink& link, Node& node);
   void synchronise(BusTime now, NodeLink& link, Node& node);

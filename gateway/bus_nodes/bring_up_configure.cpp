@@ -78,6 +78,7 @@ void BringUp::configure(BusTime now, NodeLink& link, Node& node) {
         break;
       case Config::kSettings:
         for (const ParameterWrite& write : node.configuration.settings) link.sdo().write(write);
+        for (const ObjectAddress& sensor : node.configuration.load_sensors) link.sdo().read(sensor);
         break;
       case Config::kRestoring:
         // A node with power for its motors writes no flash; the reset that comes takes it anyway.
@@ -101,7 +102,10 @@ void BringUp::configure(BusTime now, NodeLink& link, Node& node) {
     return;
   }
   while (const auto answer = result(link, AlarmCode::kConfiguration))
-    if (answer->read) return check_fingerprint(link, node, static_cast<std::uint32_t>(answer->value));
+    if (node.config == Config::kSettings && answer->read)
+      check_load_sensor(link, *answer);
+    else if (answer->read)
+      return check_fingerprint(link, node, static_cast<std::uint32_t>(answer->value));
   if (failed_ || !link.sdo().idle()) return;
   node.requested = false;
   if (node.config == Config::kWriting && !node.configuration.fingerprint) {
@@ -120,9 +124,14 @@ void BringUp::configure(BusTime now, NodeLink& link, Node& node) {
 }
 
 void BringUp::parameters_are_right(Node& node) {
-  node.done = node.configuration.settings.empty();
+  node.done = node.configuration.settings.empty() && node.configuration.load_sensors.empty();
   node.config = node.done ? Config::kDone : Config::kSettings;
   node.requested = false;
+}
+
+void BringUp::check_load_sensor(const NodeLink& link, const SdoResult& answer) {
+  if (auto words = load_sensor_missing(machine_, link.id(), answer.address, answer.value))
+    fail(AlarmCode::kConfiguration, link.id(), std::move(*words));
 }
 
 /// Until the node answers again after storing.

@@ -69,7 +69,7 @@ MachineHoming::MachineHoming(const MachineDescription& machine, const homing::Pl
 
 void MachineHoming::start(BusTime now) {
   for (Axis& axis : axes_) axis.attained = axis.waits = axis.started = false;
-  failed_ = false;
+  failed_ = unexplained_ = false;
   order_ = 0;
   next_order();
   enter(order_ == 0 ? Stage::kIdle : Stage::kReports, now);
@@ -166,6 +166,20 @@ void MachineHoming::abort() {
     links_[axis.node].set_control(axis.axis, cia402::control::kOperation | cia402::control::kHalt);
   for (NodeLink& link : links_) link.sdo().abandon();
   stage_ = Stage::kIdle;
+  unexplained_ = !failed_;
+}
+
+std::optional<StepFailure> MachineHoming::explain() {
+  if (!std::exchange(unexplained_, false)) return std::nullopt;
+  for (const Axis* axis : group()) {
+    const NodeLink& link = links_[axis->node];
+    const std::uint16_t status = link.statusword(axis->axis);
+    if (!machine_.joints[axis->joint].homing->by_load() || link.mode(axis->axis) != kHomingMode ||
+        (status & cia402::status::kHomingError) == 0)
+      continue;
+    return StepFailure{AlarmCode::kHomingFailed, link.id(), error_words(*axis, status)};
+  }
+  return std::nullopt;
 }
 
 void MachineHoming::enter(Stage stage, BusTime now) {
@@ -269,10 +283,7 @@ void MachineHoming::watch(BusTime now) {
       continue;
     }
     if ((status & cia402::status::kHomingError) != 0)
-      return fail(AlarmCode::kHomingFailed, link.id(),
-                  say("%1 did not find its home switch, or the switch did not release: is it wired to "
-                      "another carriage?",
-                      axis->name));
+      return fail(AlarmCode::kHomingFailed, link.id(), error_words(*axis, status));
     axis->attained =
         (status & cia402::status::kHomingAttained) != 0 && (status & cia402::status::kTargetReached) != 0;
     axis->waits = (status & cia402::status::kHomingWaits) != 0;
@@ -286,6 +297,21 @@ void MachineHoming::watch(BusTime now) {
     if (now - entered_ >= kSettle) let_leave();
   }
   in_time(now);
+}
+
+Sentence MachineHoming::error_words(const Axis& axis, std::uint16_t status) const {
+  if (!machine_.joints[axis.joint].homing->by_load())
+    return say(
+        "%1 did not find its home switch, or the switch did not release: is it wired to another "
+        "carriage?",
+        axis.name);
+  if ((status & cia402::status::kHomingWaits) != 0)
+    return say(
+        "%1: its driver told a stop where there is none, or not twice at one place; stall_threshold is "
+        "too high, the motion too rough, or DIAG is not led to the input",
+        axis.name);
+  return say("%1 came to no stop by its driver's load; stall_threshold is too low, or max_search too short",
+             axis.name);
 }
 
 /// Fails when it is not.

@@ -21,6 +21,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,9 @@ class MachineHoming {
   /// The carriages of this node move, and have told where they are since `from`.
   bool reports(std::size_t node, BusTime from) const;
   bool busy() const { return stage_ != Stage::kIdle; }
+  /// After a node has stopped all before it was seen why, and all rest: what it was, where more is to be said
+  /// than that a drive has a fault. Once.
+  std::optional<StepFailure> explain();
   const StepFailure& failure() const { return failure_; }
 
  private:
@@ -76,6 +80,7 @@ class MachineHoming {
   bool group_rests();
   void lend_speeds(bool own);
   bool in_time(BusTime now);
+  Sentence error_words(const Axis& axis, std::uint16_t status) const;
   void repeat_control(BusTime now);
   void set_report_period(std::int64_t ms);
   bool requests_done();
@@ -92,6 +97,7 @@ class MachineHoming {
   std::uint8_t order_ = 0;
   BusTime entered_{0}, repeated_{0}, began_{0};
   bool failed_ = false;
+  bool unexplained_ = false;
   StepFailure failure_;
 };
 

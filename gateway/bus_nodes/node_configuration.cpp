@@ -148,7 +148,9 @@ void set_joint(Writer& writer, const JointDescription& joint) {
   writer.set_axis(axis, kHomingAcceleration, homing.accel_per_s2 * counts);
   writer.set_axis(axis, kHomingTravel, homing.max_search * counts);
   // The carriage leaves the switch within a few times the distance that it backs off.
-  writer.set_axis(axis, kHomingBackOff, 10 * homing.back_off * counts);
+  writer.set_axis(axis, kHomingBackOff, (homing.by_load() ? 1 : 10) * homing.back_off * counts);
+  writer.set_axis(axis, kStallThreshold, homing.stall_threshold.value_or(0));
+  writer.set_axis(axis, kStallAbove, homing.stall_above_per_s * counts);
 }
 
 /// As 2160h:1 counts them.
@@ -198,6 +200,25 @@ std::int32_t home_counts(const JointDescription& joint) {
       std::lround(slope * (drive + joint.homing->edge_direction() * c.backlash / 2)));
 }
 
+std::optional<Sentence> load_sensor_missing(const MachineDescription& machine, std::uint8_t node_id,
+                                            ObjectAddress sensor, std::int64_t state) {
+  constexpr std::int64_t kStandsAlone = 0, kSilent = 4;
+  if (state != kStandsAlone && state != kSilent) return std::nullopt;
+  std::string name;
+  for (const JointDescription& joint : machine.joints)
+    if (joint.node_id == node_id && on_axis(object::kDriverState, joint.axis & 1u) == sensor)
+      name = joint.name;
+  if (state == kSilent)
+    return say(
+        "%1 is to home by its driver's load, and the driver does not answer node %2: look at the motor "
+        "supply and the jumper for UART in its socket, or home it at a switch",
+        name, node_id);
+  return say(
+      "%1 is to home by its driver's load, and node %2 has no driver there that tells it (TMC2209 by "
+      "UART): home it at a switch, method 17 to 22",
+      name, node_id);
+}
+
 ParameterWrite homing_speed(const JointDescription& joint, double per_s) {
   const std::size_t axis = joint.axis & 1u;
   Writer writer(joint.node_id);
@@ -238,6 +259,9 @@ NodeConfiguration configure_node(const MachineDescription& machine, std::uint8_t
         {entry.address, entry.size(), writer.dictionary().value(entry.value_slot())});
   }
   configuration.settings = scale_settings(machine, node_id);
+  for (const JointDescription& joint : machine.joints)
+    if (joint.node_id == node_id && joint.homing && joint.homing->by_load())
+      configuration.load_sensors.push_back(on_axis(object::kDriverState, joint.axis & 1u));
   return configuration;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gateway/description/machine_description.hpp"
+#include "gateway/sentence.hpp"
 #include "protocol/canopen/object.hpp"
 
 namespace kinebus {
@@ -33,10 +34,16 @@ struct NodeConfiguration {
   std::vector<ParameterWrite> settings{};
   /// Written before them, unless the node has them all: what makes a heat node take its settings.
   std::vector<ParameterWrite> before{};
+  /// 2170h:5 of axes that home by their drivers' load: looked at once the parameters are right.
+  std::vector<ObjectAddress> load_sensors{};
   std::optional<std::uint32_t> product{};  ///< 1018h:2 that a node with these objects has
 };
 
 NodeConfiguration configure_node(const MachineDescription& machine, std::uint8_t node_id);
+
+/// The words for a driver that cannot tell its load, by what 2170h:5 says; none: it can.
+std::optional<Sentence> load_sensor_missing(const MachineDescription& machine, std::uint8_t node_id,
+                                            ObjectAddress sensor, std::int64_t state);
 
 /// How fast that joint looks for its switch (6099h:1), mm/s or rad/s.
 ParameterWrite homing_speed(const JointDescription& joint, double per_s);

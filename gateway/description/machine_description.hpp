@@ -45,7 +45,8 @@ struct DriveTrain {
 /// method.
 struct HomingDescription {
   /// CiA 402 method in joint directions: 19/20 home switch near the positive end, 21/22 near the negative
-  /// end, 17/18 negative/positive limit switch, 37 take the present position.
+  /// end, 17/18 negative/positive limit switch, 37 take the present position; -3/-4 the mechanical stop at
+  /// the positive/negative end, found by the load that the motor's driver sees.
   std::int8_t method = 22;
   std::uint8_t switch_input = 1;  ///< 1..7, on the joint's own node
   double fast_per_s = 40;         ///< mm/s or rad/s
@@ -56,10 +57,20 @@ struct HomingDescription {
   double max_search = 600;      ///< mm or rad travelled without finding the switch: alarm
   /// Joints of one order home together, order 1 first; 0: it follows from the kinematics (homing/plan.hpp).
   std::uint8_t order = 0;
+  /// By load: 1 .. 255, at what load the driver says stop, 255 the lightest; none: at a switch.
+  std::optional<std::uint32_t> stall_threshold{};
+  double stall_above_per_s = 0;  ///< mm/s or rad/s: slower, the driver's load says nothing
 
-  bool towards_positive() const { return method == 18 || method == 19 || method == 20; }
+  static constexpr std::int8_t kPositiveStop = -3, kNegativeStop = -4;
+  bool by_load() const { return method == kPositiveStop || method == kNegativeStop; }
+  bool at_switch() const { return method >= 17 && method <= 22; }
+  bool towards_positive() const {
+    return method == 18 || method == 19 || method == 20 || method == kPositiveStop;
+  }
   /// +1: the edge is taken moving in positive direction, which leaves the joint on that side of its gap.
-  double edge_direction() const { return method == 18 || method == 19 || method == 22 ? -1 : 1; }
+  double edge_direction() const {
+    return method == 18 || method == 19 || method == 22 || method == kNegativeStop ? -1 : 1;
+  }
   /// The method to write to the node (0x6098): the mirrored one for an inverted drive train.
   std::int8_t node_method(const DriveTrain& drive) const {
     if (!drive.inverted) return method;
@@ -76,6 +87,10 @@ struct HomingDescription {
         return 19;
       case 22:
         return 20;
+      case kPositiveStop:
+        return kNegativeStop;
+      case kNegativeStop:
+        return kPositiveStop;
       default:
         return method;
     }

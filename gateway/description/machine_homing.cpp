@@ -9,7 +9,7 @@ namespace kinebus {
 namespace {
 
 /// The mechanism alone: no workspace, and joints that may stand as far behind their switches as they overrun
-/// them.
+/// them, and at their other end as far as they first go off a stop.
 MachineDescription mechanism_of(const MachineDescription& d) {
   MachineDescription free = d;
   std::vector<Interval> travel;
@@ -18,7 +18,8 @@ MachineDescription mechanism_of(const MachineDescription& d) {
     Interval& t = travel[j.joint];
     if (!t.limited()) continue;
     const double end = j.switch_position + j.direction() * 2 * j.overrun();
-    t = {std::min(t.min, end), std::max(t.max, end)};
+    const double other = (j.positive ? t.min : t.max) - j.direction() * j.back_off;
+    t = {std::min({t.min, end, other}), std::max({t.max, end, other})};
   }
   const auto widen = [](PoseLimits& limits) {
     limits.x_mm = limits.y_mm = limits.z_mm = {};
@@ -67,12 +68,13 @@ std::vector<homing::Joint> homing_joints(const MachineDescription& description) 
                       .node = joint.node_id,
                       .moves = h.method != 37,
                       .positive = h.towards_positive(),
-                      .entering = h.method == 20 || h.method == 22,
+                      .entering = h.method == 20 || h.method == 22 || h.by_load(),
                       .fast_per_s = h.fast_per_s,
                       .slow_per_s = h.slow_per_s,
                       .accel_per_s2 = h.accel_per_s2,
                       .switch_position = h.switch_position,
-                      .order = h.order});
+                      .order = h.order,
+                      .back_off = h.by_load() ? h.back_off : 0});
   }
   return joints;
 }
@@ -141,7 +143,9 @@ void judge_homing(const MachineDescription& description, std::vector<BrokenRule>
                           "kinematics")});
     return;
   }
-  if (!description.bodies || !moves) return;
+  if (!moves) return;
+  judge_load_homing(description, broken);
+  if (!description.bodies || !broken.empty()) return;
   HomingStudy study(description);
   const double stated_mm = description.bodies->part_height_mm;
   const double spared_mm = description.homing.spared_part_mm;

@@ -8,6 +8,7 @@
 #include "gateway/calibration/joint_map.hpp"
 #include "gateway/description/bodies_rules.hpp"
 #include "gateway/description/device_rules.hpp"
+#include "gateway/description/load_homing_rules.hpp"
 #include "gateway/description/machine_homing.hpp"
 #include "gateway/gcode/letters.hpp"
 #include "gateway/kinematics/tool_placement.hpp"
@@ -84,7 +85,7 @@ class Rules {
       require(!j.rotary, {key + "scale.pulses_per_mm"}, say("a scale on a joint that turns"),
               say("a joint that moves along a rail"));
       // The edge of the switch is where scale and axis are known to be at the same place.
-      require(j.homing && j.homing->method != 37, {key + "scale.pulses_per_mm", key + "homing.method"},
+      require(j.homing && j.homing->at_switch(), {key + "scale.pulses_per_mm", key + "homing.method"},
               say("a scale on a joint that does not home at a switch"),
               say("[%1homing] with a method of 17..22: the switch's edge is where the scale begins", key));
       // These are commanded on purpose, and the scale would take them for drift.
@@ -143,8 +144,9 @@ class Rules {
     const std::string u = j.rotary ? "deg" : "mm";
     const double unit = j.rotary ? kRadPerDeg : 1;
     const auto shown = [&](double value) { return number(value / unit); };
-    require((h.method >= 17 && h.method <= 22) || h.method == 37, {key + "method"},
-            Sentence::verbatim(std::to_string(h.method)), say("17..22 or 37"));
+    require(h.at_switch() || h.method == 37 || h.by_load(), {key + "method"},
+            Sentence::verbatim(std::to_string(h.method)), say("17..22, 37, -3 or -4"));
+    judge_load_keys(j, h, key, broken_);
     require(h.slow_per_s <= h.fast_per_s, {key + "slow_" + u + "_per_s", key + "fast_" + u + "_per_s"},
             Sentence::verbatim(shown(h.slow_per_s)), say("at most the fast speed, %1", shown(h.fast_per_s)));
     require(h.fast_per_s <= j.speed_per_s,
@@ -176,6 +178,9 @@ class Rules {
             wanted == InputFunction::kHome
                 ? say("an input of node %1 that has the home function for axis %2", j.node_id, axis)
                 : say("an input of node %1 that has the limit function for axis %2", j.node_id, axis));
+    require(!h.by_load() || !input.active_low, {input_key + ".active_low", key + "method"},
+            say("an input that is active when it is low"),
+            say("active_low = false: DIAG of a driver is high when it tells a stop"));
   }
 
   /// M1 and M5: a platform that homes towards the tool, or the tool towards the table, runs into it.
@@ -192,7 +197,10 @@ class Rules {
     // it.
     constexpr double kTowards = 0.5;
     const double towards = approach_direction(*g) * (h.towards_positive() ? 1 : -1) * rail[2] / length;
-    const int other = h.method <= 18 ? 35 - h.method : h.method <= 20 ? h.method + 2 : h.method - 2;
+    const int other = h.by_load()      ? -7 - h.method
+                      : h.method <= 18 ? 35 - h.method
+                      : h.method <= 20 ? h.method + 2
+                                       : h.method - 2;
     require(towards <= kTowards,
             {key, "kinematics.leg" + std::to_string(leg + 1) + ".rail", "kinematics.tool"},
             say("%1, which homes towards the nozzle", static_cast<int>(h.method)),

@@ -107,7 +107,7 @@ void visit_joint(V& v, JointDescription& j, bool own_travel) {
     v.flag("gray_code", s.gray_code, Need::kOptional);
   });
   v.optional_table("homing", j.homing, [&](HomingDescription& h) {
-    v.integer("method", h.method, 17, 37, Need::kRequired);
+    v.integer("method", h.method, -4, 37, Need::kRequired);
     v.integer("switch_input", h.switch_input, 1, 7, Need::kOptional);
     v.number("fast_" + u + "_per_s", h.fast_per_s, {0.01, 10000}, Need::kRequired, unit);
     v.number("slow_" + u + "_per_s", h.slow_per_s, {0.001, 1000}, Need::kRequired, unit);
@@ -116,6 +116,8 @@ void visit_joint(V& v, JointDescription& j, bool own_travel) {
     v.number("switch_position_" + u, h.switch_position, {-100000, 100000}, Need::kRequired, unit);
     v.number("max_search_" + u, h.max_search, {0.1, 100000}, Need::kRequired, unit);
     v.integer("order", h.order, 0, 8, Need::kOptional);
+    v.optional_integer("stall_threshold", h.stall_threshold);
+    v.unless_zero("stall_above_" + u + "_per_s", h.stall_above_per_s, {0.01, 10000}, unit);
   });
   v.table("calibration", Need::kOptional, [&] {
     v.number("scale", j.calibration.scale, {-0.05, 0.05}, Need::kOptional);

@@ -30,6 +30,9 @@ struct Joint {
   double fast_per_s = 40, slow_per_s = 4, accel_per_s2 = 500;
   double switch_position = 0;
   std::uint8_t order = 0;  ///< as the machine file states it; 0: it does not
+  /// At a stop, by its driver's load: it first goes so far the other way, and does so again before it comes
+  /// to the stop for the second time. 0: at a switch.
+  double back_off = 0;
 
   double direction() const { return positive ? 1 : -1; }
   /// From the edge to rest, when it comes fast.

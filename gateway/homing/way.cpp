@@ -52,6 +52,7 @@ Way Walker::walk(JointVector joints, Pose pose) {
     }
   if (!look(joints, way)) return way;
   for (const Stage& stage : plan_.stages) {
+    if (!go_free(stage, joints, way)) return way;
     note_spread(stage, joints, way);
     if (!lift(stage, joints, way) || !seek(stage, joints, way) || !leave(stage, joints, way)) return way;
   }
@@ -130,6 +131,16 @@ void Walker::note_spread(const Stage& stage, const JointVector& joints, Way& way
   if (longest > shortest) way.spread_mm = std::max(way.spread_mm, longest - shortest);
 }
 
+/// Where a stop is found by load: off it first, wherever that is.
+bool Walker::go_free(const Stage& stage, JointVector& joints, Way& way) {
+  for (const Joint& j : stage.joints) {
+    if (!(j.back_off > 0)) continue;
+    joints[j.joint] -= j.direction() * j.back_off;
+    if (!look(joints, way)) return false;
+  }
+  return true;
+}
+
 /// Straight away at the lift's rates, until the first has come to its switch and all are told to halt.
 bool Walker::lift(const Stage& stage, JointVector& joints, Way& way) {
   double seconds = kInfinite;
@@ -199,7 +210,7 @@ bool Walker::leave(const Stage& stage, JointVector& joints, Way& way) {
     for (auto& next : waiting) {
       if (next->node != node) continue;
       const Joint& j = *next;
-      const double off = j.entering ? j.overrun() : j.slow_overrun();
+      const double off = j.back_off > 0 ? j.back_off : j.entering ? j.overrun() : j.slow_overrun();
       joints[j.joint] = j.switch_position - j.direction() * off;
       if (!look(joints, way)) return false;
       if (j.entering) {

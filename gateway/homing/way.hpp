@@ -61,6 +61,7 @@ class Walker {
   };
   static double travel(const Joint& joint, const JointVector& joints);
   void note_spread(const Stage& stage, const JointVector& joints, Way& way) const;
+  bool go_free(const Stage& stage, JointVector& joints, Way& way);
   bool lift(const Stage& stage, JointVector& joints, Way& way);
   bool seek(const Stage& stage, JointVector& joints, Way& way);
   bool go(std::vector<Goal>& goals, JointVector& joints, Way& way);

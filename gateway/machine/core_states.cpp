@@ -251,8 +251,10 @@ void Gateway::Core::stop_all(bool fault, bool by_absence) {
 }
 
 void Gateway::Core::step_stop() {
-  if (rest_.settled(now_) && now_ - state_.since() >= Rest::kSettle)
+  if (rest_.settled(now_) && now_ - state_.since() >= Rest::kSettle) {
+    if (const auto why = homing_.explain()) events_.alarm(now_, why->code, why->words, why->node);
     return enter(fault_ ? MachineState::kAlarm : MachineState::kStopped);
+  }
   if (now_ - state_.since() < kStopTimeout) return;
   events_.alarm(now_, AlarmCode::kStopTimeout, say("path time did not come to rest"));
   fault_ = true;

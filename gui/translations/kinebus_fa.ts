@@ -1989,8 +1989,84 @@
         <translation>خطاهای کوچک‌تر یا حدهای بالاتر مفصل</translation>
     </message>
     <message>
-        <source>17..22 or 37</source>
-        <translation>17..22 یا 37</translation>
+        <source>17..22, 37, -3 or -4</source>
+        <translation>17..22، 37، -3 یا -4</translation>
+    </message>
+    <message>
+        <source>an input that is active when it is low</source>
+        <translation>ورودی‌ای که در سطح پایین فعال است</translation>
+    </message>
+    <message>
+        <source>active_low = false: DIAG of a driver is high when it tells a stop</source>
+        <translation>active_low = false: پایه DIAG درایور هنگام اعلام توقفگاه در سطح بالا است</translation>
+    </message>
+    <message>
+        <source>%1 on a node that drives the motor itself</source>
+        <translation>%1 روی گره‌ای که خود موتور را می‌راند</translation>
+    </message>
+    <message>
+        <source>a stepper driver that tells its load (TMC2209), and no [joint.%1.motor]; or a switch</source>
+        <translation>درایور پله‌ای که بار را اعلام کند (TMC2209) و بدون [joint.%1.motor]؛ یا یک کلید</translation>
+    </message>
+    <message>
+        <source>a load for a joint that does not home by it</source>
+        <translation>بار برای مفصلی که با آن خانه‌یابی نمی‌کند</translation>
+    </message>
+    <message>
+        <source>method = -3 or -4, or no stall_threshold</source>
+        <translation>method = -3 یا -4، یا بدون stall_threshold</translation>
+    </message>
+    <message>
+        <source>method = -3 or -4, or no stall_above</source>
+        <translation>method = -3 یا -4، یا بدون stall_above</translation>
+    </message>
+    <message>
+        <source>no stall_threshold</source>
+        <translation>بدون stall_threshold</translation>
+    </message>
+    <message>
+        <source>1 to 255: the load at which the driver says stop, 255 the lightest</source>
+        <translation>1 تا 255: باری که درایور در آن توقفگاه اعلام می‌کند، 255 سبک‌ترین</translation>
+    </message>
+    <message>
+        <source>at least %1, which is %2 full steps a second: slower, a driver does not see the load</source>
+        <translation>دست‌کم %1، یعنی %2 گام کامل در ثانیه: کندتر از آن درایور بار را نمی‌بیند</translation>
+    </message>
+    <message>
+        <source>as much as the fast speed, %1: both approaches by load are fast</source>
+        <translation>برابر سرعت تند، %1: هر دو نزدیک‌شدن با بار تند است</translation>
+    </message>
+    <message>
+        <source>%1 to %2: from %3 full steps a second to nine tenths of the fast speed</source>
+        <translation>%1 تا %2: از %3 گام کامل در ثانیه تا نه‌دهم سرعت تند</translation>
+    </message>
+    <message>
+        <source>at least %1, 2.5 times the way to the fast speed: a load on the first half of it is no stop</source>
+        <translation>دست‌کم %1، 2.5 برابر راه تا سرعت تند: بار در نیمه نخست آن توقفگاه نیست</translation>
+    </message>
+    <message>
+        <source>%1, which first goes off the stop and brings tool and table together by that</source>
+        <translation>%1، که نخست از توقفگاه دور می‌شود و با آن ابزار و میز را به هم نزدیک می‌کند</translation>
+    </message>
+    <message>
+        <source>a switch (17..22) for a joint whose homing takes tool and table apart</source>
+        <translation>کلید (17..22) برای مفصلی که خانه‌یابی‌اش ابزار و میز را از هم دور می‌کند</translation>
+    </message>
+    <message>
+        <source>%1 is to home by its driver&apos;s load, and the driver does not answer node %2: look at the motor supply and the jumper for UART in its socket, or home it at a switch</source>
+        <translation>%1 باید با بار درایور خود خانه‌یابی کند و درایور به گره %2 پاسخ نمی‌دهد: تغذیه موتور و جامپر UART در سوکت آن را ببینید، یا با کلید خانه‌یابی کنید</translation>
+    </message>
+    <message>
+        <source>%1 is to home by its driver&apos;s load, and node %2 has no driver there that tells it (TMC2209 by UART): home it at a switch, method 17 to 22</source>
+        <translation>%1 باید با بار درایور خود خانه‌یابی کند و گره %2 آنجا درایوری ندارد که آن را اعلام کند (TMC2209 با UART): با کلید خانه‌یابی کنید، روش 17 تا 22</translation>
+    </message>
+    <message>
+        <source>%1: its driver told a stop where there is none, or not twice at one place; stall_threshold is too high, the motion too rough, or DIAG is not led to the input</source>
+        <translation>%1: درایور آن جایی که توقفگاهی نیست توقفگاه اعلام کرد، یا دو بار در یک جا اعلام نکرد؛ stall_threshold بیش از حد بالا، حرکت ناهموار، یا DIAG به ورودی وصل نیست</translation>
+    </message>
+    <message>
+        <source>%1 came to no stop by its driver&apos;s load; stall_threshold is too low, or max_search too short</source>
+        <translation>%1 با بار درایور خود به توقفگاهی نرسید؛ stall_threshold بیش از حد پایین یا max_search بیش از حد کوتاه است</translation>
     </message>
     <message>
         <source>at most the fast speed, %1</source>

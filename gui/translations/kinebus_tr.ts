@@ -1989,8 +1989,84 @@
         <translation>daha küçük hatalar ya da eklemde daha yüksek sınırlar</translation>
     </message>
     <message>
-        <source>17..22 or 37</source>
-        <translation>17..22 ya da 37</translation>
+        <source>17..22, 37, -3 or -4</source>
+        <translation>17..22, 37, -3 ya da -4</translation>
+    </message>
+    <message>
+        <source>an input that is active when it is low</source>
+        <translation>düşükken etkin olan bir giriş</translation>
+    </message>
+    <message>
+        <source>active_low = false: DIAG of a driver is high when it tells a stop</source>
+        <translation>active_low = false: sürücünün DIAG ucu bir dayanak bildirirken yüksektir</translation>
+    </message>
+    <message>
+        <source>%1 on a node that drives the motor itself</source>
+        <translation>motoru kendisi süren bir düğümde %1</translation>
+    </message>
+    <message>
+        <source>a stepper driver that tells its load (TMC2209), and no [joint.%1.motor]; or a switch</source>
+        <translation>yükünü bildiren bir adım motoru sürücüsü (TMC2209) ve [joint.%1.motor] olmadan; ya da bir anahtar</translation>
+    </message>
+    <message>
+        <source>a load for a joint that does not home by it</source>
+        <translation>yükle referans almayan bir eklem için yük</translation>
+    </message>
+    <message>
+        <source>method = -3 or -4, or no stall_threshold</source>
+        <translation>method = -3 ya da -4, ya da stall_threshold olmadan</translation>
+    </message>
+    <message>
+        <source>method = -3 or -4, or no stall_above</source>
+        <translation>method = -3 ya da -4, ya da stall_above olmadan</translation>
+    </message>
+    <message>
+        <source>no stall_threshold</source>
+        <translation>stall_threshold yok</translation>
+    </message>
+    <message>
+        <source>1 to 255: the load at which the driver says stop, 255 the lightest</source>
+        <translation>1 ile 255 arası: sürücünün dayanak dediği yük, 255 en hafifi</translation>
+    </message>
+    <message>
+        <source>at least %1, which is %2 full steps a second: slower, a driver does not see the load</source>
+        <translation>en az %1, yani saniyede %2 tam adım: daha yavaşta sürücü yükü görmez</translation>
+    </message>
+    <message>
+        <source>as much as the fast speed, %1: both approaches by load are fast</source>
+        <translation>hızlı hız kadar, %1: yükle yapılan iki yaklaşma da hızlıdır</translation>
+    </message>
+    <message>
+        <source>%1 to %2: from %3 full steps a second to nine tenths of the fast speed</source>
+        <translation>%1 ile %2 arası: saniyede %3 tam adımdan hızlı hızın onda dokuzuna</translation>
+    </message>
+    <message>
+        <source>at least %1, 2.5 times the way to the fast speed: a load on the first half of it is no stop</source>
+        <translation>en az %1, hızlı hıza çıkış yolunun 2,5 katı: bunun ilk yarısındaki yük dayanak değildir</translation>
+    </message>
+    <message>
+        <source>%1, which first goes off the stop and brings tool and table together by that</source>
+        <translation>önce dayanaktan uzaklaşan ve böylece takımla tablayı yaklaştıran %1</translation>
+    </message>
+    <message>
+        <source>a switch (17..22) for a joint whose homing takes tool and table apart</source>
+        <translation>referans alması takımla tablayı uzaklaştıran eklem için bir anahtar (17..22)</translation>
+    </message>
+    <message>
+        <source>%1 is to home by its driver&apos;s load, and the driver does not answer node %2: look at the motor supply and the jumper for UART in its socket, or home it at a switch</source>
+        <translation>%1 sürücüsünün yüküyle referans alacak, sürücü ise düğüm %2 için yanıt vermiyor: motor beslemesine ve yuvasındaki UART atlama teline bakın ya da anahtarla referans alın</translation>
+    </message>
+    <message>
+        <source>%1 is to home by its driver&apos;s load, and node %2 has no driver there that tells it (TMC2209 by UART): home it at a switch, method 17 to 22</source>
+        <translation>%1 sürücüsünün yüküyle referans alacak, düğüm %2 ise orada bunu bildiren bir sürücüye sahip değil (UART ile TMC2209): anahtarla referans alın, yöntem 17..22</translation>
+    </message>
+    <message>
+        <source>%1: its driver told a stop where there is none, or not twice at one place; stall_threshold is too high, the motion too rough, or DIAG is not led to the input</source>
+        <translation>%1: sürücüsü dayanak olmayan yerde dayanak bildirdi ya da iki kez aynı yerde bildirmedi; stall_threshold çok yüksek, hareket çok pürüzlü ya da DIAG girişe bağlı değil</translation>
+    </message>
+    <message>
+        <source>%1 came to no stop by its driver&apos;s load; stall_threshold is too low, or max_search too short</source>
+        <translation>%1 sürücüsünün yüküyle bir dayanak bulamadı; stall_threshold çok düşük ya da max_search çok kısa</translation>
     </message>
     <message>
         <source>at most the fast speed, %1</source>

@@ -261,7 +261,7 @@ LocalTime DriveAxis::next_deadline() const {
                                                              : profile_.end();
   LocalTime deadline =
       ends && end > served_until_ && end < LinearInterpolator::kNever ? to_local(end) : LocalTime::max();
-  if (homing_.waiting()) deadline = std::min(deadline, to_local(served_until_) + kTurn);
+  if (homing_.polls()) deadline = std::min(deadline, to_local(served_until_) + kTurn);
   return deadline;
 }
 

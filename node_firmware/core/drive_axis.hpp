@@ -70,6 +70,8 @@ class DriveAxis {
   /// The other axis of the node, with which this one takes turns in homing.
   void set_neighbour(const DriveAxis& other) { neighbour_ = &other; }
   HomingError homing_error() const { return homing_.error(); }
+  /// What the axis' driver tells of the motor's load.
+  void set_load(Homing::Load load) { load_ = load; }
   std::uint32_t homing_errors() const { return homing_errors_; }
   /// A homing that runs uses this switch: it is no limit then.
   bool homes_with(SwitchFunction function) const;
@@ -131,6 +133,8 @@ class DriveAxis {
   }
 
   Homing homing_;
+  Homing::Load load_ = Homing::Load::kNone;
+  void tell_homing();
   const DriveAxis* neighbour_ = nullptr;
   std::uint16_t word_ = 0;
   cia402::Stop serving_ = cia402::Stop::kNone;

@@ -224,7 +224,7 @@ void DriveAxis::start_or_end_homing(LocalTime now, bool start) {
   if (start) {
     if (source_ != Source::kProfile) to_profile(t);  // a motion that still brakes goes over into the new one
     const SwitchFunction function = homing_function();
-    homing_.set_turn(homing_turn());
+    tell_homing();
     homing_.start(t, homing_config(), function != SwitchFunction::kNone && inputs_.active(function),
                   profile_);
     serve_homing(now);
@@ -234,6 +234,11 @@ void DriveAxis::start_or_end_homing(LocalTime now, bool start) {
   }
 }
 
+void DriveAxis::tell_homing() {
+  homing_.set_turn(homing_turn());
+  homing_.set_load(parameter(slot_of_axes(object::kStallThreshold)) == 0 ? Homing::Load::kNone : load_);
+}
+
 bool DriveAxis::homes_with(SwitchFunction function) const {
   return homing_.running() && function == homing_function();
 }
@@ -241,7 +246,7 @@ bool DriveAxis::homes_with(SwitchFunction function) const {
 void DriveAxis::on_switch(LocalTime now, const SwitchEvent& event) {
   on_time(now);
   if (!homes_with(event.function)) return;
-  homing_.set_turn(homing_turn());
+  tell_homing();
   scale_at_edge_ = event.scales[index_];  // the last edge of a homing is the one that counts
   homing_.on_switch(to_ticks(now), event.active, event.latched[index_], profile_);
   serve_homing(now);
@@ -249,7 +254,7 @@ void DriveAxis::on_switch(LocalTime now, const SwitchEvent& event) {
 }
 
 void DriveAxis::serve_homing(LocalTime now) {
-  homing_.set_turn(homing_turn());
+  tell_homing();
   homing_.on_time(to_ticks(now), profile_);
   std::int64_t by = 0;
   if (homing_.take_shift(by)) {
@@ -286,6 +291,9 @@ std::uint16_t DriveAxis::statusword(LocalTime now) const {
       if (homing_.waiting()) word |= status::kHomingWaits;
       if (homing_.attained()) word |= status::kHomingAttained;
       if (homing_.error() != HomingError::kNone) word |= status::kHomingError;
+      // With the error: the switch, or the load, came where it must not.
+      if (homing_.error() == HomingError::kBounced || homing_.error() == HomingError::kStuck)
+        word |= status::kHomingWaits;
       break;
     case Mode::kInterpolatedPosition:
       if (source_ == Source::kStream ? path_.stream().resting() : rests) word |= status::kTargetReached;

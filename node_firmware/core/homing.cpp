@@ -6,13 +6,13 @@
 namespace kinebus {
 
 bool Homing::supports(int method) {
-  return (method >= 17 && method <= 22) || method == 35 || method == 37;
+  return (method >= 17 && method <= 22) || method == 35 || method == 37 || by_load(method);
 }
 
 Homing::Switch Homing::switch_of(int method) {
   if (method == 17) return Switch::kNegativeLimit;
   if (method == 18) return Switch::kPositiveLimit;
-  return method >= 19 && method <= 22 ? Switch::kHome : Switch::kNone;
+  return (method >= 19 && method <= 22) || by_load(method) ? Switch::kHome : Switch::kNone;
 }
 
 void Homing::start(ProfileTicks now, const HomingConfig& config, bool switch_active, Trapezoid& motion) {
@@ -22,17 +22,21 @@ void Homing::start(ProfileTicks now, const HomingConfig& config, bool switch_act
   error_ = HomingError::kNone;
   if (!supports(config.method)) return fail(now, motion, HomingError::kMethod);
   const int method = config.method;
-  direction_ = method >= 18 && method <= 20 ? 1 : -1;
+  direction_ = (method >= 18 && method <= 20) || method == kPositiveStop ? 1 : -1;
   entering_ = method == 20 || method == 22;
   if (switch_of(method) == Switch::kNone) {
     latched_ = motion.at(now).position;
     return finish(now, motion);
   }
+  active_ = switch_active;
+  second_ = false;
+  if (by_load(method)) return go_free(now, motion);
   if (switch_active) return leave(now, motion);
   go(Phase::kSeek, now, motion, direction_, config.fast, config.travel);
 }
 
 void Homing::on_switch(ProfileTicks now, bool active, std::int64_t latched, Trapezoid& motion) {
+  active_ = active;
   switch (phase_) {
     case Phase::kSeek:
       if (active) stop_into(Phase::kStopOn, now, motion);
@@ -50,7 +54,14 @@ void Homing::on_switch(ProfileTicks now, bool active, std::int64_t latched, Trap
     case Phase::kStopOff:
     case Phase::kStopLatched:
     case Phase::kSettle:
+      if (by_load(config_.method)) return;
       return fail(now, motion, HomingError::kBounced);
+    case Phase::kPress:
+      if (active) on_load(now, latched, motion);
+      return;
+    case Phase::kFree:
+    case Phase::kDriver:
+    case Phase::kStopPressed:
     case Phase::kIdle:
       return;
   }
@@ -75,6 +86,13 @@ void Homing::on_time(ProfileTicks now, Trapezoid& motion) {
       phase_ = Phase::kIdle;
       attained_ = true;
       return;
+    case Phase::kFree:
+    case Phase::kDriver:
+      return press(now, motion);
+    case Phase::kPress:
+      return fail(now, motion, second_ ? HomingError::kBounced : HomingError::kNoSwitch);
+    case Phase::kStopPressed:
+      return go_free(now, motion);
     case Phase::kIdle:
       return;
   }

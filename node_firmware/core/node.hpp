@@ -101,6 +101,12 @@ struct DriverReport {
   std::uint32_t status = 0;
   std::uint16_t stall_guard = 0;
   std::uint16_t found = 0;  ///< 2209, 5160, 2130; 0: none
+
+  static constexpr std::uint8_t kConfigured = 2, kSilent = 4;
+  Homing::Load load() const {
+    if (state == 0 || state >= kSilent) return Homing::Load::kNone;
+    return state == kConfigured ? Homing::Load::kReady : Homing::Load::kBusy;
+  }
 };
 
 class Node : private ObjectOwner {
@@ -145,6 +151,7 @@ class Node : private ObjectOwner {
   }
   void set_driver(int axis, const DriverReport& report) {
     drivers_[static_cast<std::size_t>(axis & 1)] = report;
+    axes_[static_cast<std::size_t>(axis & 1)].set_load(report.load());
   }
   /// What an axis' linear scale counts now, wrapping around; told before the inputs that it is to be seen
   /// with.

@@ -37,7 +37,7 @@ class SwitchTest {
   void run() {
     s_.dialogue.say("\nSwitches: press the one that is asked for, by hand, and let it go.");
     for (JointDescription& joint : s_.machine.joints)
-      if (joint.homing && joint.homing->method != 37)
+      if (joint.homing && joint.homing->at_switch())
         while (!test(joint)) {
         }
     if (s_.machine.probe.present && s_.machine.probe.place.on_node())

@@ -95,7 +95,12 @@ class OctopusBoard final : public Stm32f4Chip, public UsbSocket {
   TmcSpiChip& spi_driver(int axis) { return *spi_chips_[static_cast<std::size_t>(axis)]; }
   DriverSpiBus& driver_spi() { return spi_bus_; }
   /// A jumper leads DIAG to the stop beside the driver.
-  void wire_diag(int axis) { diag_wired_[static_cast<std::size_t>(axis)] = true; }
+  void wire_diag(int axis) {
+    diag_wired_[static_cast<std::size_t>(axis)] = true;
+    const bool level = socket(static_cast<std::size_t>(axis)).diag();
+    diag_level_[static_cast<std::size_t>(axis)] = level;
+    set_input(axis, level);
+  }
   /// Times that a driver and the processor held a wire at different levels, each with force.
   std::uint64_t wire_fights() const { return wire_fights_; }
   void clear_edges() {

@@ -133,5 +133,31 @@ TEST(Alarms, EmergenciesAreToldInWords) {
   EXPECT_EQ(unknown.words, "node 1: hardware fault (EMCY 5999h)");
 }
 
+TEST(NodeConfiguration, AJointThatHomesByLoadTellsItsDriverWhenAndIsAskedWhetherItCan) {
+  MachineDescription m1 = default_m1();
+  EXPECT_TRUE(configure_node(m1, 1).load_sensors.empty());
+  HomingDescription& h = *m1.joints[1].homing;
+  h.method = HomingDescription::kNegativeStop;
+  h.back_off = 5;
+  h.stall_threshold = 70;
+  h.stall_above_per_s = 30;
+  NodeConfiguration c = configure_node(m1, 1);
+  EXPECT_EQ(written(c, second(object::kHomingMethod)), -4);
+  EXPECT_EQ(written(c, second(object::kStallThreshold)), 70);
+  EXPECT_EQ(written(c, second(object::kStallAbove)), 30 * 1280);
+  EXPECT_EQ(written(c, second(object::kHomingBackOff)), 5 * 1280) << "no more than it is free to go";
+  EXPECT_EQ(written(c, object::kStallThreshold), 0);
+  EXPECT_EQ(c.load_sensors, std::vector{second(object::kDriverState)});
+  EXPECT_NE(c.fingerprint, configure_node(default_m1(), 1).fingerprint);
+  m1.joints[1].drive.inverted = true;
+  EXPECT_EQ(written(configure_node(m1, 1), second(object::kHomingMethod)), -3);
+  for (const int can : {1, 2, 3}) EXPECT_FALSE(load_sensor_missing(m1, 1, c.load_sensors[0], can));
+  const auto none = load_sensor_missing(m1, 1, c.load_sensors[0], 0);
+  ASSERT_TRUE(none);
+  EXPECT_NE(none->english().find("node 1 has no driver there"), std::string::npos) << none->english();
+  EXPECT_NE(load_sensor_missing(m1, 1, c.load_sensors[0], 4)->english().find("does not answer"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace kinebus

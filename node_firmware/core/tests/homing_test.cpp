@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "node_firmware/core/switch_inputs.hpp"
 
 namespace kinebus {
@@ -147,6 +149,107 @@ TEST(Homing, AnEdgeWhereNoneMayBeIsAnErrorAndStops) {
   EXPECT_EQ(rail.homing.error(), HomingError::kBounced);
   EXPECT_FALSE(rail.homing.running());
   EXPECT_EQ(rail.motion.at(rail.motion.end()).velocity, 0);
+}
+
+/// A stop at `edge`: the load is seen when the axis presses against it at some speed, or where it is said to.
+struct RailWithStop : Rail {
+  explicit RailWithStop(int method) {
+    config.back_off = 20'000;
+    config.method = method;
+    homing.set_load(Homing::Load::kReady);
+  }
+  std::int64_t falsely = std::numeric_limits<std::int64_t>::max();  // told once at this place, too
+  int meetings = 0;
+  void home(double seconds = 60) {
+    const int direction = config.method == -3 ? 1 : -1;
+    homing.start(now, config, false, motion);
+    const ProfileTicks end = now + static_cast<ProfileTicks>(seconds * 16e6);
+    bool last = false;
+    while (homing.running() && now < end) {
+      now += 1600;
+      const ProfileState is = motion.at(now);
+      const std::int64_t at = is.position - origin;
+      const auto beyond = [&](std::int64_t place) { return direction > 0 ? at >= place : at <= place; };
+      const bool presses = is.velocity * direction > velocity_from(config.fast / 2);
+      const bool once = falsely != std::numeric_limits<std::int64_t>::max() && beyond(falsely);
+      const bool told = presses && (dead ? false : beyond(edge) || (once && meetings == 0));
+      if (told != last) homing.on_switch(now, told, is.position, motion);
+      if (told && !last) ++meetings;
+      last = told;
+      homing.on_time(now, motion);
+      std::int64_t by = 0;
+      if (homing.take_shift(by)) origin += by;
+    }
+  }
+};
+
+TEST(HomingByLoad, MeetsItsStopTwiceAndStopsOnTheSpot) {
+  for (const int method : {-3, -4}) {
+    SCOPED_TRACE(method);
+    RailWithStop rail(method);
+    rail.motion.hold(from_counts(method == -3 ? 30'000 : 170'000));
+    rail.home();
+    ASSERT_TRUE(rail.homing.attained());
+    EXPECT_EQ(rail.meetings, 2);
+    EXPECT_LT(rail.home_error_counts(), 5) << "the test's own clock at the speed";
+    const std::int64_t rest = rail.motion.at(rail.now).position - rail.origin;
+    EXPECT_LT(std::abs(rest - rail.edge), from_counts(128));
+  }
+}
+
+TEST(HomingByLoad, BegunAtTheStopItFirstGoesOff) {
+  RailWithStop rail(-3);
+  rail.motion.hold(rail.edge);
+  rail.home();
+  EXPECT_TRUE(rail.homing.attained());
+}
+
+TEST(HomingByLoad, ALoadThatIsMetOnceIsNoStop) {
+  RailWithStop rail(-3);
+  rail.falsely = from_counts(60'000);
+  rail.home();
+  EXPECT_EQ(rail.homing.error(), HomingError::kBounced);
+  EXPECT_FALSE(rail.homing.attained());
+  EXPECT_EQ(rail.origin, 0) << "no position is taken";
+}
+
+TEST(HomingByLoad, ALoadWhereTheAxisWasFreeAMomentAgoIsNoStop) {
+  RailWithStop rail(-4);
+  rail.edge = from_counts(200'000);  // says so as soon as it is fast enough
+  rail.home();
+  EXPECT_EQ(rail.homing.error(), HomingError::kBounced);
+  EXPECT_EQ(rail.meetings, 1);
+}
+
+TEST(HomingByLoad, WithoutALoadItGivesUpAfterTheTravel) {
+  RailWithStop rail(-3);
+  rail.dead = true;
+  rail.home();
+  EXPECT_EQ(rail.homing.error(), HomingError::kNoSwitch);
+  EXPECT_EQ(whole_counts(rail.motion.at(rail.now + kTicksPerSecond).position), 400'000);
+}
+
+TEST(HomingByLoad, NothingMovesWithoutADriverThatTellsOrWithAnInputThatIsActiveAtRest) {
+  RailWithStop rail(-3);
+  rail.homing.set_load(Homing::Load::kNone);
+  rail.homing.start(0, rail.config, false, rail.motion);
+  EXPECT_EQ(rail.homing.error(), HomingError::kNoLoad);
+  rail.homing.set_load(Homing::Load::kReady);
+  rail.homing.start(0, rail.config, true, rail.motion);
+  EXPECT_EQ(rail.homing.error(), HomingError::kStuck);
+  EXPECT_EQ(rail.motion.at(kTicksPerSecond).position, 0);
+}
+
+TEST(HomingByLoad, ItWaitsForTheDriverToHaveItsSettings) {
+  RailWithStop rail(-3);
+  rail.homing.set_load(Homing::Load::kBusy);
+  rail.home(5);
+  EXPECT_TRUE(rail.homing.running());
+  EXPECT_TRUE(rail.homing.polls());
+  EXPECT_EQ(whole_counts(rail.motion.at(rail.now).position), -20'000);
+  rail.homing.set_load(Homing::Load::kReady);
+  rail.homing.on_time(rail.now, rail.motion);
+  EXPECT_FALSE(rail.motion.done(rail.now));
 }
 
 TEST(SwitchInputs, AnEdgeCountsFromWhenItHappened) {

@@ -87,6 +87,10 @@ void Tmc2209::on_wire(bool high, Cycle now) {
 }
 
 void Tmc2209::advance(Cycle now) {
+  if (stands_at_ <= now) {
+    stands_at_ = tstep_cycles_ = kNever;
+    update_diag();
+  }
   while (sample_at_ <= now) {
     const Cycle at = sample_at_;
     switch (hears_) {
@@ -289,10 +293,12 @@ void Tmc2209::on_step(bool direction, Cycle now) {
   const Cycle since = now - last_step_;
   last_step_ = now;
   tstep_cycles_ = since > kCoreHz / 10 ? kNever : since / static_cast<Cycle>(std::abs(way));
+  // Until then TSTEP is that of the last step.
+  stands_at_ = now + static_cast<Cycle>((1 << 20) / p_.clock_hz * static_cast<double>(kCoreHz));
   if (!bridges_on()) return update_diag();
   const double load = rotor_.on_field(way, torque_nm());
   steps_since_measure_ += std::abs(way);
-  if (steps_since_measure_ >= 4 * 256) {
+  if (steps_since_measure_ >= 256) {  // each full step
     steps_since_measure_ = 0;
     measure_load(load);
   }
@@ -302,7 +308,12 @@ void Tmc2209::on_step(bool direction, Cycle now) {
 // StallGuard4 sees the load in StealthChop only.
 void Tmc2209::measure_load(double nm) {
   const double share = torque_nm() <= 0 ? 1 : std::min(nm / torque_nm(), 1.0);
-  stall_guard_ = stealth() ? static_cast<std::uint32_t>(std::lround(420 * (1 - share))) : 0;
+  noise_ = noise_ * 1'664'525u + 1'013'904'223u;
+  const double noise = p_.load_noise * (static_cast<double>(noise_ >> 8) / (1 << 23) - 1);
+  const double seen = p_.full_load + (p_.free_load - p_.full_load) * (1 - share) + noise;
+  // Bits 9 and 0 are always 0.
+  stall_guard_ =
+      stealth() ? static_cast<std::uint32_t>(std::lround(std::clamp(seen, 0.0, 510.0))) & 0x1FEu : 0;
 }
 
 void Tmc2209::update_diag() {

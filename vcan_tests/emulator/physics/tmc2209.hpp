@@ -17,6 +17,9 @@ struct Tmc2209Parameters {
   double clock_hz = 12.2e6;         ///< its own oscillator, within 4 % of 12 MHz
   double answer_bit_error = 0.015;  ///< its bits are longer than those that it has heard
   double torque_nm_per_a = 0.3;     ///< of the motor
+  double free_load = 420;           ///< SG_RESULT of this motor without load ...
+  double full_load = 0;             ///< ... and with all that it can turn
+  double load_noise = 0;            ///< of SG_RESULT, each way at most
   int pins_resolution = 8;          ///< microsteps by MS1 and MS2 at ground: address 0
 };
 
@@ -28,7 +31,7 @@ class Tmc2209 final : public SocketedDriver {
   // Wire.
   void on_wire(bool high, Cycle now);
   bool pulls_low() const { return pulls_low_; }
-  Cycle next_event() const { return sample_at_; }
+  Cycle next_event() const { return sample_at_ < stands_at_ ? sample_at_ : stands_at_; }
   void advance(Cycle now);
 
   // Pins.
@@ -97,7 +100,8 @@ class Tmc2209 final : public SocketedDriver {
   bool too_hot_ = false, pre_warning_ = false, open_ = false, shorted_ = false, short_kept_ = false;
   DrivenRotor rotor_;
   bool diag_ = false;
-  Cycle last_step_ = 0, tstep_cycles_ = kNever;
+  Cycle last_step_ = 0, tstep_cycles_ = kNever, stands_at_ = kNever;
+  std::uint32_t noise_ = 1;
   std::uint32_t stall_guard_ = 510;
   int steps_since_measure_ = 0;
 };
