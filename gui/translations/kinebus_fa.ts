@@ -4613,12 +4613,12 @@
         <translation>یک راه‌انداز موتور پاسخ نمی‌دهد</translation>
     </message>
     <message>
-        <source>a motor driver does not answer on its UART</source>
-        <translation>یک راه‌انداز موتور از راه UART پاسخ نمی‌دهد</translation>
+        <source>a motor driver does not answer by UART or SPI</source>
+        <translation>یک راه‌انداز موتور از راه UART یا SPI پاسخ نمی‌دهد</translation>
     </message>
     <message>
-        <source>check the motor supply, the driver&apos;s seat and its UART jumper, then clear</source>
-        <translation>تغذیهٔ موتورها، نشستن راه‌انداز در جایش و جامپر UART آن را بررسی کنید، سپس هشدار را رفع کنید</translation>
+        <source>check the motor supply, the driver&apos;s seat and its jumpers for UART or SPI, then clear</source>
+        <translation>تغذیهٔ موتورها، نشستن راه‌انداز در جایش و جامپرهای UART یا SPI آن را بررسی کنید، سپس هشدار را رفع کنید</translation>
     </message>
     <message>
         <source>an NMT command that does not carry the session&apos;s check value was refused (%1)</source>

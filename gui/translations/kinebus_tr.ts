@@ -4613,12 +4613,12 @@
         <translation>Bir motor sürücüsü yanıt vermiyor</translation>
     </message>
     <message>
-        <source>a motor driver does not answer on its UART</source>
-        <translation>bir motor sürücüsü UART üzerinden yanıt vermiyor</translation>
+        <source>a motor driver does not answer by UART or SPI</source>
+        <translation>bir motor sürücüsü UART veya SPI üzerinden yanıt vermiyor</translation>
     </message>
     <message>
-        <source>check the motor supply, the driver&apos;s seat and its UART jumper, then clear</source>
-        <translation>motor beslemesini, sürücünün yuvasına oturuşunu ve UART atlama telini kontrol edin, sonra alarmı kaldırın</translation>
+        <source>check the motor supply, the driver&apos;s seat and its jumpers for UART or SPI, then clear</source>
+        <translation>motor beslemesini, sürücünün yuvasına oturuşunu ve UART ya da SPI atlama tellerini kontrol edin, sonra alarmı kaldırın</translation>
     </message>
     <message>
         <source>an NMT command that does not carry the session&apos;s check value was refused (%1)</source>

@@ -6,23 +6,24 @@
 #include <cstdint>
 
 #include "node_firmware/core/node.hpp"
-#include "node_firmware/step/tmc2209.hpp"
+#include "node_firmware/step/driver_socket.hpp"
 #include "protocol/canopen/alarm_codes.hpp"
 
 namespace kinebus {
 
-/// `driver`: of one axis.
-inline std::uint16_t driver_fault(const tmc2209::Driver& driver) {
-  namespace status = tmc2209::drv_status;
-  const std::uint32_t is = driver.status();
-  if (driver.state() == tmc2209::State::kStandsAlone) return emcy::kNoError;
-  if (driver.lost_settings()) return emcy::kDriverReset;
-  if ((is & status::kShortToGround) != 0) return emcy::kShortToGround;
-  if ((is & status::kShortToSupply) != 0) return emcy::kShortToSupply;
-  if ((is & status::kTooHot) != 0) return emcy::kDriveTemperature;
-  if (driver.charge_pump_low()) return emcy::kUnderVoltage;
-  if (driver.driver_error()) return emcy::kShortCircuit;
-  return driver.open_load() ? emcy::kPhaseOpen : emcy::kNoError;
+/// `socket`: of one axis.
+inline std::uint16_t driver_fault(const step::DriverSocket& socket) {
+  namespace finding = step::finding;
+  const step::StepperDriver& chip = socket.chip();
+  const std::uint8_t found = chip.findings();
+  if (socket.state() == step::DriverState::kStandsAlone) return emcy::kNoError;
+  if (chip.lost_settings()) return emcy::kDriverReset;
+  if ((found & finding::kShortToGround) != 0) return emcy::kShortToGround;
+  if ((found & finding::kShortToSupply) != 0) return emcy::kShortToSupply;
+  if ((found & finding::kTooHot) != 0) return emcy::kDriveTemperature;
+  if (chip.charge_pump_low()) return emcy::kUnderVoltage;
+  if (chip.driver_error()) return emcy::kShortCircuit;
+  return chip.open_load() ? emcy::kPhaseOpen : emcy::kNoError;
 }
 
 /// Axes of which each has such a driver. `Drivers`: step::DriverChain.
@@ -33,8 +34,8 @@ class DriverSupervision {
 
   /// The axis must not have power, and why; 0: it may.
   std::uint16_t refusal(std::size_t place) const {
-    const tmc2209::Driver& driver = drivers_.driver(place);
-    if (driver.state() == tmc2209::State::kSilent) return emcy::kDriverSilent;
+    const step::DriverSocket& driver = drivers_.driver(place);
+    if (driver.state() == step::DriverState::kSilent) return emcy::kDriverSilent;
     const std::uint16_t fault = driver_fault(driver);
     return fault != emcy::kNoError || driver.usable() ? fault : emcy::kDriverSilent;
   }
@@ -43,20 +44,21 @@ class DriverSupervision {
   std::uint16_t fault(std::size_t place) const { return driver_fault(drivers_.driver(place)); }
   /// Without power. What a driver has kept of its past is of no account when the axis is switched on.
   void forget(std::size_t place) {
-    tmc2209::Driver& driver = drivers_.driver(place);
+    step::DriverSocket& driver = drivers_.driver(place);
     if (driver.usable()) driver.acknowledge();
   }
 
   /// Now and then. True: the node was told something.
   bool serve(Node& node, LocalTime now, std::size_t place, int axis, bool powered) {
-    tmc2209::Driver& driver = drivers_.driver(place);
+    step::DriverSocket& driver = drivers_.driver(place);
     driver.set_spoken_to(node.axis_parameter(slot_of_axes(object::kDriverKind), axis) != 0);
     driver.set(settings_of(node, axis));
     const std::int32_t speed = node.axis(axis).velocity(now);
     driver.set_slow_motion(powered && speed != 0 && speed < kSlow && speed > -kSlow);
     node.set_driver(axis, {.state = static_cast<std::uint8_t>(driver.state()),
-                           .status = driver.status(),
-                           .stall_guard = driver.stall_guard()});
+                           .status = driver.chip().status(),
+                           .stall_guard = driver.chip().stall_guard(),
+                           .found = driver.chip().found()});
     const bool told = serve_troubles(node, now, place, axis, powered);
     return tell_silence(node, place, powered) || told;
   }
@@ -67,7 +69,7 @@ class DriverSupervision {
   // 1.2 turns/s of 51,200 counts: the driver's open load flag is of no use in fast motion.
   static constexpr std::int32_t kSlow = 60'000;
 
-  static tmc2209::Settings settings_of(const Node& node, int axis) {
+  static step::DriverSettings settings_of(const Node& node, int axis) {
     const auto value = [&](AxisSlots slots) {
       return static_cast<std::uint32_t>(node.axis_parameter(slots, axis));
     };
@@ -76,14 +78,15 @@ class DriverSupervision {
             .spread_above = value(slot_of_axes(object::kSpreadCycleAbove)),
             .stall_threshold = static_cast<std::uint8_t>(value(slot_of_axes(object::kStallThreshold))),
             .stall_above = value(slot_of_axes(object::kStallAbove)),
-            .homing = node.axis(axis).mode_display() == static_cast<int>(cia402::Mode::kHoming)};
+            .homing = node.axis(axis).mode_display() == static_cast<int>(cia402::Mode::kHoming),
+            .sense_milliohm = static_cast<std::uint16_t>(value(slot_of_axes(object::kSenseResistor)))};
   }
   // Power is kept, all stop on the path.
   bool serve_troubles(Node& node, LocalTime now, std::size_t place, int axis, bool powered) {
-    const tmc2209::Driver& driver = drivers_.driver(place);
+    const step::DriverSocket& driver = drivers_.driver(place);
     std::uint8_t present = 0;
-    if (powered && (driver.status() & tmc2209::drv_status::kPreWarning) != 0) present |= kHot;
-    if (powered && driver.state() == tmc2209::State::kSilent) present |= kSilent;
+    if (powered && (driver.chip().findings() & step::finding::kPreWarning) != 0) present |= kHot;
+    if (powered && driver.state() == step::DriverState::kSilent) present |= kSilent;
     std::uint8_t& was = troubles_[place];
     if (present == was) return false;
     const std::uint8_t other = troubles_[place ^ 1];
@@ -98,7 +101,7 @@ class DriverSupervision {
   // One that does not answer from the start on is told once: its socket may be empty. Nobody hears a node
   // without id.
   bool tell_silence(Node& node, std::size_t place, bool powered) {
-    const bool silent = drivers_.driver(place).state() == tmc2209::State::kSilent;
+    const bool silent = drivers_.driver(place).state() == step::DriverState::kSilent;
     if (node.node_id() == 0) return false;
     const bool news = silent && !silence_told_[place] && !powered;
     silence_told_[place] = silent;

@@ -100,6 +100,7 @@ struct DriverReport {
   std::uint8_t state = 0;
   std::uint32_t status = 0;
   std::uint16_t stall_guard = 0;
+  std::uint16_t found = 0;  ///< 2209, 5160, 2130; 0: none
 
   static constexpr std::uint8_t kConfigured = 2, kSilent = 4;
   Homing::Load load() const {

@@ -177,6 +177,7 @@ bool Node::read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int6
       if (base == object::kDriverState) value = drivers_[index].state;
       if (base == object::kDriverStatus) value = drivers_[index].status;
       if (base == object::kStallGuard) value = drivers_[index].stall_guard;
+      if (base == object::kDriverFound) value = drivers_[index].found;
       return true;
     case 0x6079:
       value = feedback.supply_mv;

@@ -1,22 +1,21 @@
 #pragma once
-// The TMC2209s of a board, each with a wire of its own and one of them spoken to at a time.
+// The drivers of a board, each with a wire of its own, and SPI's for all; one of them is spoken to at a time.
 
-#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstdint>
 #include <optional>
 #include <span>
 
-#include "node_firmware/step/tmc2209.hpp"
+#include "node_firmware/step/driver_socket.hpp"
 
 namespace kinebus::step {
 
-/// Puts bytes out and takes in all that comes on the wire, echo and answer, without the processor.
+/// Puts bytes out and takes in all that is heard, echo and answer.
 template <typename T>
-concept DriverWire = requires(T& wire, std::size_t driver, std::span<const std::uint8_t> said,
-                              std::size_t answer_bytes, std::span<std::uint8_t> heard) {
-  wire.begin(driver, said, answer_bytes);
+concept DriverWire = requires(T& wire, std::size_t driver, const Exchange& exchange,
+                              std::span<std::uint8_t> heard) {
+  wire.begin(driver, exchange);
   { wire.done() } -> std::same_as<bool>;
   // Ends it. How many bytes came whole.
   { wire.take(heard) } -> std::same_as<std::size_t>;
@@ -29,8 +28,8 @@ class DriverChain {
 
   explicit constexpr DriverChain(Wire& wire) : wire_(wire) {}
 
-  tmc2209::Driver& driver(std::size_t i) { return drivers_[i]; }
-  const tmc2209::Driver& driver(std::size_t i) const { return drivers_[i]; }
+  DriverSocket& driver(std::size_t i) { return drivers_[i]; }
+  const DriverSocket& driver(std::size_t i) const { return drivers_[i]; }
 
   /// Main loop, each pass.
   void serve(LocalTime now) {
@@ -44,8 +43,8 @@ class DriverChain {
   }
   /// Each has its settings, or does not answer.
   bool settled() const {
-    for (const tmc2209::Driver& d : drivers_)
-      if (d.state() == tmc2209::State::kUnasked) return false;
+    for (const DriverSocket& d : drivers_)
+      if (d.state() == DriverState::kUnasked) return false;
     return true;
   }
 
@@ -62,30 +61,22 @@ class DriverChain {
       at_ = busy_ones ? (i + kCount - 1) % kCount : i;
       talks_to_ = i;
       begun_ = now;
-      wire_.begin(i, said_->said(), said_->read ? tmc2209::kValueBytes : 0);
+      wire_.begin(i, *said_);
       return true;
     }
     return false;
   }
   void finish() {
-    tmc2209::Driver& driver = drivers_[talks_to_];
-    std::array<std::uint8_t, 2 * tmc2209::kValueBytes> heard{};
-    const tmc2209::Datagram said = *said_;
+    std::array<std::uint8_t, kMostHeard> heard{};
+    const Exchange said = *said_;
     said_.reset();
-    const std::size_t wanted = said.length + (said.read ? tmc2209::kValueBytes : 0);
-    const std::size_t came = wire_.take(std::span(heard).first(wanted));
-    const auto echo = std::span<const std::uint8_t>(heard).first(said.length);
-    if (came < said.length || !std::equal(echo.begin(), echo.end(), said.bytes.begin()))
-      return driver.on_failure();
-    if (!said.read) return driver.on_said();
-    const auto value =
-        tmc2209::answer_of(std::span(heard).subspan(said.length, came - said.length), said.address());
-    value ? driver.on_answer(*value) : driver.on_failure();
+    const std::size_t came = wire_.take(std::span(heard).first(said.hears));
+    drivers_[talks_to_].on_heard(said, std::span(heard).first(came));
   }
 
   Wire& wire_;
-  std::array<tmc2209::Driver, kCount> drivers_{};
-  std::optional<tmc2209::Datagram> said_;
+  std::array<DriverSocket, kCount> drivers_{};
+  std::optional<Exchange> said_;
   std::size_t at_ = kCount - 1, talks_to_ = 0;
   LocalTime begun_{0};
 };

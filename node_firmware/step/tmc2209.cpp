@@ -1,29 +1,21 @@
 #include "node_firmware/step/tmc2209.hpp"
 
+#include <algorithm>
 #include <bit>
 
 namespace kinebus::tmc2209 {
 
-void Driver::set(const Settings& settings) {
-  if (settings == settings_) return;
-  settings_ = settings;
-  const auto wanted = registers_of(settings);
-  for (std::size_t i = 0; i < kRegisters; ++i)
-    if (wanted[i].value != wanted_[i].value) pending_ |= 1u << i, written_ &= ~(1u << i);
-  wanted_ = wanted;
-  if (pending_ == 0 || state_ == State::kSilent || state_ == State::kStandsAlone) return;
-  if (phase_ >= kAsk) begin(kCount);
-  if (state_ == State::kConfigured) state_ = State::kChanging;
-}
+using step::DriverState;
 
-void Driver::set_spoken_to(bool spoken_to) {
-  if (spoken_to == (state_ != State::kStandsAlone)) return;
-  state_ = spoken_to ? State::kUnasked : State::kStandsAlone;
-  failures_ = 0;
-  status_ = 0;
-  charge_pump_low_ = false;
-  acknowledge();
-  write_all();
+void Driver::set(const step::DriverSettings& settings) {
+  if (settings == settings_) return;
+  const auto before = registers_of(settings_), wanted = registers_of(settings);
+  settings_ = settings;
+  for (std::size_t i = 0; i < kRegisters; ++i)
+    if (wanted[i].value != before[i].value) pending_ |= 1u << i, written_ &= ~(1u << i);
+  if (pending_ == 0 || state_ == DriverState::kSilent) return;
+  if (phase_ >= kAsk) begin(kCount);
+  if (state_ == DriverState::kConfigured) state_ = DriverState::kChanging;
 }
 
 void Driver::write_all() {
@@ -33,9 +25,8 @@ void Driver::write_all() {
   begin(kIdentify);
 }
 
-std::optional<Datagram> Driver::next(LocalTime now) {
-  if (state_ == State::kStandsAlone) return std::nullopt;
-  if ((state_ == State::kSilent || phase_ == kAsk) && now < due_) return std::nullopt;
+std::optional<Datagram> Driver::datagram(LocalTime now) {
+  if (rests(now) || (phase_ == kAsk && now < due_)) return std::nullopt;
   now_ = now;
   asked_ = phase_;
   switch (phase_) {
@@ -44,10 +35,12 @@ std::optional<Datagram> Driver::next(LocalTime now) {
     case kCount:
     case kVerify:
       return read_of(reg::kIfcnt);
-    case kWriteNext:
+    case kWriteNext: {
       place_ = static_cast<std::size_t>(std::countr_zero(pending_ & ~written_));
-      said_ = wanted_[place_].value;
-      return write_of(wanted_[place_].address, said_);
+      const Register wanted = registers_of(settings_)[place_];
+      said_ = wanted.value;
+      return write_of(wanted.address, said_);
+    }
     case kAsk:
       due_ = now + kRound;
       return read_of(reg::kGstat);
@@ -59,11 +52,29 @@ std::optional<Datagram> Driver::next(LocalTime now) {
   return std::nullopt;
 }
 
+std::optional<step::Exchange> Driver::next(LocalTime now) {
+  const std::optional<Datagram> said = datagram(now);
+  if (!said) return std::nullopt;
+  under_way_ = *said;
+  const std::size_t hears = said->length + (said->read ? kValueBytes : 0);
+  static_assert(kRequestBytes + kValueBytes <= step::kMostHeard);
+  return step::Exchange{
+      .bytes = said->bytes, .length = said->length, .hears = static_cast<std::uint8_t>(hears)};
+}
+
+void Driver::on_heard(std::span<const std::uint8_t> bytes) {
+  const std::span<const std::uint8_t> said = under_way_.said();
+  if (bytes.size() < said.size() || !std::ranges::equal(bytes.first(said.size()), said)) return on_failure();
+  if (!under_way_.read) return on_said();
+  const auto value = answer_of(bytes.subspan(said.size()), under_way_.address());
+  value ? on_answer(*value) : on_failure();
+}
+
 void Driver::on_said() {
   if (asked_ != kWriteNext || phase_ != asked_) return;
   ++writes_;
   // Another value is wanted by now, perhaps.
-  if (wanted_[place_].value == said_) written_ |= 1u << place_;
+  if (registers_of(settings_)[place_].value == said_) written_ |= 1u << place_;
   if ((pending_ & ~written_) == 0) begin(kVerify);
 }
 
@@ -72,6 +83,7 @@ void Driver::on_answer(std::uint32_t value) {
   if (phase_ == kIdentify && value >> 24 != kVersion) return on_failure();  // another chip: as if none
   switch (phase_) {
     case kIdentify:
+      found_ = true;
       begin(kCount);
       break;
     case kCount:
@@ -88,33 +100,18 @@ void Driver::on_answer(std::uint32_t value) {
       begin(pending_ != 0 ? kCount : kAsk);
       if (pending_ == 0) {
         configured_ = true;
-        state_ = State::kConfigured;
+        state_ = DriverState::kConfigured;
       }
       break;
     case kAsk:
-      charge_pump_low_ = (value & gstat::kChargePumpLow) != 0;
-      error_seen_ = (value & gstat::kDriverError) != 0;
-      begin(kAskStatus);
-      if ((value & gstat::kReset) != 0) {
-        lost_settings_ = true;
-        state_ = State::kChanging;
-        write_all();
-      } else if ((value & gstat::kDriverError) != 0) {
-        pending_ |= 1u << (kRegisters - 1);  // what it has kept is known now
-      }
+      on_gstat(value);
       break;
-    case kAskStatus: {
-      status_ = value;
+    case kAskStatus:
+      look_at(value, step::findings_of(value, kStatusBits));
       driver_error_ = driver_error_ || error_seen_;  // now that it is known why
       error_seen_ = false;
-      const bool told = slow_motion_ && (value & drv_status::kStandstill) == 0;
-      if (!told || (value & drv_status::kOpenLoad) == 0)
-        open_looks_ = open_load() ? open_looks_ : std::uint8_t{0};
-      else if (!open_load())
-        ++open_looks_;
       begin(pending_ != 0 ? kCount : settings_.homing && settings_.stall_threshold != 0 ? kAskLoad : kAsk);
       break;
-    }
     case kAskLoad:
       stall_guard_ = static_cast<std::uint16_t>(value & 0x3FF);
       begin(kAsk);
@@ -125,14 +122,26 @@ void Driver::on_answer(std::uint32_t value) {
   failures_ = 0;
 }
 
+void Driver::on_gstat(std::uint32_t value) {
+  charge_pump_low_ = (value & gstat::kChargePumpLow) != 0;
+  error_seen_ = (value & gstat::kDriverError) != 0;
+  begin(kAskStatus);
+  if ((value & gstat::kReset) != 0) {
+    lost_settings_ = true;
+    state_ = DriverState::kChanging;
+    write_all();
+  } else if ((value & gstat::kDriverError) != 0) {
+    pending_ |= 1u << (kRegisters - 1);  // what it has kept is known now
+  }
+}
+
 void Driver::on_failure() {
   if (phase_ == kWriteNext || phase_ == kVerify) begin(kCount);
   written_ = 0;
-  if (state_ == State::kSilent || ++failures_ >= kTries) {
-    state_ = State::kSilent;
+  if (state_ == DriverState::kSilent || ++failures_ >= kTries) {
+    state_ = DriverState::kSilent;
     due_ = now_ + kLookAgain;
-    // What it has now nobody knows.
-    status_ = 0;
+    forget_status();
     write_all();
   }
 }

@@ -5,6 +5,9 @@
 #include <array>
 #include <cstdint>
 
+#include "node_firmware/step/current_scale.hpp"
+#include "node_firmware/step/stepper_driver.hpp"
+
 namespace kinebus::tmc2209 {
 
 namespace reg {
@@ -22,6 +25,12 @@ namespace drv_status {
 inline constexpr std::uint32_t kPreWarning = 1u << 0, kTooHot = 1u << 1, kShortToGround = 3u << 2,
                                kShortToSupply = 3u << 4, kOpenLoad = 3u << 6, kStandstill = 1u << 31;
 }  // namespace drv_status
+inline constexpr step::StatusBits kStatusBits{.pre_warning = drv_status::kPreWarning,
+                                              .too_hot = drv_status::kTooHot,
+                                              .short_to_ground = drv_status::kShortToGround,
+                                              .short_to_supply = drv_status::kShortToSupply,
+                                              .open_phase = drv_status::kOpenLoad,
+                                              .standstill = drv_status::kStandstill};
 
 /// IOIN, bits 31 to 24.
 inline constexpr std::uint32_t kVersion = 0x21;
@@ -33,31 +42,14 @@ constexpr std::uint32_t tstep_of(std::uint32_t counts_per_s) {
   return counts_per_s == 0 ? kLongest : std::min(kClockHz / counts_per_s, kLongest);
 }
 
-/// What an axis wants of its driver.
-struct Settings {
-  std::uint16_t run_ma = 0, hold_ma = 0;  ///< amplitudes of a phase's current
-  /// StealthChop below this velocity, counts/s, SpreadCycle above it. 0: always SpreadCycle.
-  std::uint32_t spread_above = 0;
-  /// StallGuard: load at which DIAG says stall, 1 to 255, 255 the lightest; 0: never.
-  std::uint8_t stall_threshold = 0;
-  std::uint32_t stall_above = 0;  ///< counts/s from which it is looked at
-  bool homing = false;            ///< StallGuard is looked at then only, and needs StealthChop
-  friend constexpr bool operator==(const Settings&, const Settings&) = default;
-};
+using step::DriverSettings;
 
-/// Currents in 32nds of the full scale of a sense resistor of 0.11 ohm and the chip's own 0.02 ohm: 325 mV or
-/// 180 mV there (VSENSE). Never more than asked for, but for the smallest that there is.
-struct CurrentScale {
-  bool fine = false;  ///< VSENSE: 180 mV
-  std::uint8_t run = 0, hold = 0;
-};
-inline constexpr std::uint32_t kCoarseMilliamperes = 325'000 / 130, kFineMilliamperes = 180'000 / 130;
-constexpr CurrentScale scale_of(std::uint32_t run_ma, std::uint32_t hold_ma) {
-  const bool fine = std::max(run_ma, hold_ma) <= kFineMilliamperes;
-  const auto part = [full = fine ? kFineMilliamperes : kCoarseMilliamperes](std::uint32_t ma) {
-    return static_cast<std::uint8_t>(std::clamp<std::uint32_t>(ma * 32 / full, 1, 32) - 1);
-  };
-  return {.fine = fine, .run = part(run_ma), .hold = part(hold_ma)};
+/// Full scale: 325 mV or 180 mV at the sense resistor, 0.11 ohm on most modules, and the chip's own 0.02 ohm.
+constexpr step::CurrentScale scale_of(std::uint32_t run_ma, std::uint32_t hold_ma,
+                                      std::uint32_t sense_milliohm = 0) {
+  constexpr std::uint32_t kUsualSense = 110, kBond = 20;
+  const std::uint32_t sense = (sense_milliohm != 0 ? sense_milliohm : kUsualSense) + kBond;
+  return step::scale_of(run_ma, hold_ma, {.coarse_ma = 325'000 / sense, .fine_ma = 180'000 / sense});
 }
 
 struct Register {
@@ -67,7 +59,7 @@ struct Register {
 /// Everything that is written, in order; the chopper last but one, so that nothing is on before its current
 /// is right. The last takes back what GSTAT has kept.
 inline constexpr std::size_t kRegisters = 11;
-constexpr std::array<Register, kRegisters> registers_of(const Settings& s) {
+constexpr std::array<Register, kRegisters> registers_of(const DriverSettings& s) {
   // GCONF: current by the chip's own reference, not by the potentiometer (bit 0 off); the wire is for data
   // alone (6); microsteps by CHOPCONF (7); filter on STEP (8).
   constexpr std::uint32_t kGeneral = 1u << 6 | 1u << 7 | 1u << 8, kSpreadCycle = 1u << 2;
@@ -77,7 +69,7 @@ constexpr std::array<Register, kRegisters> registers_of(const Settings& s) {
   // clocks a 32nd.
   constexpr std::uint32_t kHoldDelay = 8, kPowerDown = 20;
   constexpr std::uint32_t kPwm = 0xC10D'0024;  // as it comes: scaled and graded by itself
-  const CurrentScale scale = scale_of(s.run_ma, s.hold_ma);
+  const step::CurrentScale scale = scale_of(s.run_ma, s.hold_ma, s.sense_milliohm);
   const bool stall = s.homing && s.stall_threshold != 0;
   const bool stealth = stall || s.spread_above != 0;
   return {{{reg::kGconf, kGeneral | (stealth ? 0 : kSpreadCycle)},

@@ -61,7 +61,7 @@ inline constexpr ObjectAddress kScaleFitted{0x2160, 1}, kScaleCountsPerUnit{0x21
     kScaleCorrection{0x2160, 9};
 inline constexpr ObjectAddress kDriverKind{0x2170, 1}, kSpreadCycleAbove{0x2170, 2},
     kStallThreshold{0x2170, 3}, kStallAbove{0x2170, 4}, kDriverState{0x2170, 5}, kDriverStatus{0x2170, 6},
-    kStallGuard{0x2170, 7};
+    kStallGuard{0x2170, 7}, kSenseResistor{0x2170, 8}, kDriverFound{0x2170, 9};
 inline constexpr ObjectAddress kErrorCode{0x603F, 0}, kControlword{0x6040, 0}, kStatusword{0x6041, 0},
     kAbortConnectionOption{0x6007, 0}, kQuickStopOption{0x605A, 0}, kShutdownOption{0x605B, 0},
     kDisableOption{0x605C, 0}, kHaltOption{0x605D, 0}, kFaultReactionOption{0x605E, 0},

@@ -247,12 +247,12 @@ constexpr void linear_scales(Rows& t) {
   t.for_both_axes(from);
 }
 
-/// Stepper drivers that are chips of their own, behind step and direction pins, and are spoken to (TMC2209);
-/// on boards without them nothing comes of it.
+/// Stepper drivers that are chips of their own, behind step and direction pins, and are spoken to (TMC2209 by
+/// UART; TMC5160, TMC2130 by SPI); on boards without them nothing comes of it.
 constexpr void stepper_drivers(Rows& t) {
   const std::size_t from = t.count;
-  t.head(0x2170, "Stepper driver", ObjectCode::kRecord, 7);
-  t.sub(1, "Driver", kU8, kReadWrite, kParameter, 1).between(0, 1);  // 0: stands alone; 1: TMC2209 by UART
+  t.head(0x2170, "Stepper driver", ObjectCode::kRecord, 9);
+  t.sub(1, "Driver", kU8, kReadWrite, kParameter, 1).between(0, 1);  // 0: stands alone; 1: is spoken to
   // StealthChop below, SpreadCycle above; 0: always SpreadCycle.
   t.sub(2, "SpreadCycle above", kU32, kReadWrite, kParameter).in("counts/s");
   // Homing (mode 6) by StallGuard: load at which DIAG says stall, 255 the lightest; 0: not. From 4 on.
@@ -262,6 +262,9 @@ constexpr void stepper_drivers(Rows& t) {
   t.sub(5, "Driver state", kU8, kReadOnly, kLive).maps(Mapping::kTpdo);
   t.sub(6, "Driver status", kU32, kReadOnly, kLive).maps(Mapping::kTpdo);  // DRV_STATUS
   t.sub(7, "StallGuard result", kU16, kReadOnly, kLive).maps(Mapping::kTpdo);
+  // Of the driver's module; 0: as it is on most of its kind.
+  t.sub(8, "Sense resistor", kU16, kReadWrite, kParameter).between(0, 1000).in("mOhm");
+  t.sub(9, "Driver found", kU16, kReadOnly, kLive);  // 2209, 5160, 2130; 0: none yet, or none
   t.for_both_axes(from);
 }
 

@@ -63,7 +63,9 @@ OctopusBoard::OctopusBoard(const ElfImage& image, const BoardOptions& options, s
       dma2_(cpu_.nvic(), {56, 57, 58, 59, 60, 68, 69, 70}),
       adc_(cpu_.nvic()),
       makers_loader_(first_address(image) != CortexM4::kFlash),
-      usb_(cpu_.nvic(), {.irq = 67, .memory_words = 320, .endpoints = 6, .later_core = true}) {
+      usb_(cpu_.nvic(), {.irq = 67, .memory_words = 320, .endpoints = 6, .later_core = true}),
+      spi1_(cpu_.nvic(), 35, 2, spi_bus_) {
+  map(0x40013000, 0x400, spi1_, apb2(12));
   map(0x50000000, 0x40000, usb_, ahb2(7));
   map(0x40000800, 0x400, tim4_, apb1(2));
   map(0x40010000, 0x400, tim1_, apb2(0));
@@ -98,7 +100,14 @@ OctopusBoard::OctopusBoard(const ElfImage& image, const BoardOptions& options, s
     dma2_.on_request(kStreams[static_cast<std::size_t>(event)], 7, at);
   };
   for (std::size_t axis = 0; axis < drivers_.size(); ++axis)
-    drivers_[axis].on_step = [this, axis](bool direction, Cycle at) { chips_[axis].on_step(direction, at); };
+    drivers_[axis].on_step = [this, axis](bool direction, Cycle at) { socket(axis).on_step(direction, at); };
+  spi_bus_.clock = [this] { return TmcSpiChip::Clock{spi1_.mode(), spi1_.clock_hz()}; };
+  spi_bus_.connected = [this] {
+    constexpr int kSpi1Function = 5;
+    return std::ranges::all_of(std::array{5, 6, 7}, [this](int pin) {
+      return ports_[0].mode(pin) == GpioPort::Mode::kAlternate && ports_[0].alternate(pin) == kSpi1Function;
+    });
+  };
   for (GpioPort& port : ports_) port.on_change = [this](Cycle at) { on_pins(at); };
   start();
 }
@@ -109,8 +118,35 @@ std::uint32_t OctopusBoard::product_code() const {
   return Stm32f446OctopusBoard::kFacts.product_code;
 }
 
+std::uint16_t DriverSpiBus::exchange(std::uint16_t sent, Cycle now) {
+  std::uint8_t answer = 0xFF;
+  int driving = 0;
+  for (std::optional<TmcSpiChip>& chip : chips_) {
+    if (!chip || !chip->drives_line() || !connected()) continue;
+    answer &= chip->exchange(static_cast<std::uint8_t>(sent), clock(), now);
+    ++driving;
+  }
+  if (driving > 1) ++fights_;
+  return driving == 0 ? floating : answer;
+}
+
+void OctopusBoard::plug(int axis, const SpiDriverParameters& parameters) {
+  const auto i = static_cast<std::size_t>(axis);
+  chips_[i].set_supply(false);
+  spi_chips_[i].emplace(parameters);
+}
+
+SocketedDriver& OctopusBoard::socket(std::size_t axis) {
+  if (spi_chips_[axis]) return *spi_chips_[axis];
+  return chips_[axis];
+}
+const SocketedDriver& OctopusBoard::socket(std::size_t axis) const {
+  if (spi_chips_[axis]) return *spi_chips_[axis];
+  return chips_[axis];
+}
+
 double OctopusBoard::true_counts(int axis) const {
-  return chips_[static_cast<std::size_t>(axis)].rotor_counts() + start_counts(axis);
+  return socket(static_cast<std::size_t>(axis)).rotor_counts() + start_counts(axis);
 }
 
 void OctopusBoard::set_input(int input, bool level) {
@@ -185,6 +221,7 @@ void OctopusBoard::reset_devices(Cycle now) {
   dma2_.reset();
   adc_.reset();
   usb_.reset();
+  spi1_.reset();
   on_pins(now);
 }
 
@@ -192,6 +229,7 @@ void OctopusBoard::advance_devices(Cycle now) {
   tim1_.advance(now);
   tim4_.advance(now);
   tim8_.advance(now);
+  spi1_.advance(now);
   wires_next_ = kNever;
   for (std::size_t axis = 0; axis < chips_.size(); ++axis) {
     Tmc2209& chip = chips_[axis];
@@ -211,7 +249,7 @@ void OctopusBoard::advance_devices(Cycle now) {
 
 Cycle OctopusBoard::next_of_devices() const {
   return std::min({tim1_.next_event(), tim4_.next_event(), tim8_.next_event(), adc_.next_event(),
-                   heated_.next_event(), sleeps_, wires_next_});
+                   heated_.next_event(), spi1_.next_event(), sleeps_, wires_next_});
 }
 
 void OctopusBoard::on_pins(Cycle now) {
@@ -223,7 +261,7 @@ void OctopusBoard::on_pins(Cycle now) {
     // A pin that nobody drives leaves the driver disabled: pulled up on the board.
     const GpioPort& port = ports_[static_cast<std::size_t>(pins.enable.port)];
     const bool enabled = port.mode(pins.enable.number) == GpioPort::Mode::kOutput && !high(pins.enable);
-    chips_[axis].on_enable(enabled);
+    socket(axis).on_enable(enabled);
     look_at_wire(axis, now);
     drivers_[axis].on_pins(high(pins.step), high(pins.direction), enabled, now);
     wires_next_ = std::min({wires_next_, chips_[axis].next_event(), wires_[axis].rises});
@@ -253,12 +291,15 @@ void OctopusBoard::look_at_wire(std::size_t axis, Cycle now) {
   if (level == wire.high) return;
   wire.high = level;
   port.drive(pin.number, level);
-  chips_[axis].on_wire(level, now);
+  if (spi_chips_[axis])
+    spi_chips_[axis]->on_select(!level, now);
+  else
+    chips_[axis].on_wire(level, now);
 }
 
 void OctopusBoard::look_at_diag() {
   for (std::size_t axis = 0; axis < chips_.size(); ++axis) {
-    const bool level = chips_[axis].diag();
+    const bool level = socket(axis).diag();
     if (!diag_wired_[axis] || level == diag_level_[axis]) continue;
     diag_level_[axis] = level;
     set_input(static_cast<int>(axis), level);

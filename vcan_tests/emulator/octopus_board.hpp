@@ -6,12 +6,15 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "vcan_tests/emulator/peripherals/adc.hpp"
 #include "vcan_tests/emulator/peripherals/dma.hpp"
+#include "vcan_tests/emulator/peripherals/spi.hpp"
 #include "vcan_tests/emulator/physics/heated_places.hpp"
 #include "vcan_tests/emulator/physics/tmc2209.hpp"
+#include "vcan_tests/emulator/physics/tmc_spi_chip.hpp"
 #include "vcan_tests/emulator/servo_pulses.hpp"
 #include "vcan_tests/emulator/stm32f4_chip.hpp"
 #include "vcan_tests/emulator/usb_socket.hpp"
@@ -50,6 +53,24 @@ class StepDriver {
   Shortest shortest_;
 };
 
+/// What hangs on SPI1: the sockets that are jumpered for it. Nobody selected: the line floats.
+class DriverSpiBus final : public SpiDevice {
+ public:
+  using Chips = std::array<std::optional<TmcSpiChip>, 8>;
+  explicit DriverSpiBus(Chips& chips) : chips_(chips) {}
+  void select(bool, Cycle) override {}
+  std::uint16_t exchange(std::uint16_t sent, Cycle now) override;
+  std::function<TmcSpiChip::Clock()> clock;  ///< of the master
+  std::function<bool()> connected;           ///< the master's pins
+  std::uint8_t floating = 0xFF;
+  /// Bytes in which two chips drove the line.
+  std::uint64_t fights() const { return fights_; }
+
+ private:
+  Chips& chips_;
+  std::uint64_t fights_ = 0;
+};
+
 class OctopusBoard final : public Stm32f4Chip, public UsbSocket {
  public:
   static constexpr double kCountsPerStep = 16;
@@ -67,12 +88,18 @@ class OctopusBoard final : public Stm32f4Chip, public UsbSocket {
   double true_counts(int axis) const override;
   void set_input(int input, bool level) override;
   const StepDriver& driver(int axis) const { return drivers_[static_cast<std::size_t>(axis)]; }
+  /// What is in the sockets unless something else is plugged in.
   Tmc2209& tmc(int axis) { return chips_[static_cast<std::size_t>(axis)]; }
+  /// In the place of a TMC2209, with the jumpers for SPI; before power.
+  void plug(int axis, const SpiDriverParameters& parameters);
+  TmcSpiChip& spi_driver(int axis) { return *spi_chips_[static_cast<std::size_t>(axis)]; }
+  DriverSpiBus& driver_spi() { return spi_bus_; }
   /// A jumper leads DIAG to the stop beside the driver.
   void wire_diag(int axis) {
     diag_wired_[static_cast<std::size_t>(axis)] = true;
-    diag_level_[static_cast<std::size_t>(axis)] = tmc(axis).diag();
-    set_input(axis, tmc(axis).diag());
+    const bool level = socket(static_cast<std::size_t>(axis)).diag();
+    diag_level_[static_cast<std::size_t>(axis)] = level;
+    set_input(axis, level);
   }
   /// Times that a driver and the processor held a wire at different levels, each with force.
   std::uint64_t wire_fights() const { return wire_fights_; }
@@ -101,6 +128,8 @@ class OctopusBoard final : public Stm32f4Chip, public UsbSocket {
   int clock_offset(std::uint32_t base, std::uint32_t address) const override;
   double analogue(int channel);
   void on_pins(Cycle now);
+  SocketedDriver& socket(std::size_t axis);
+  const SocketedDriver& socket(std::size_t axis) const;
   void look_at_wire(std::size_t axis, Cycle now);
   void look_at_diag();
 
@@ -114,6 +143,9 @@ class OctopusBoard final : public Stm32f4Chip, public UsbSocket {
   Cycle sleeps_ = kNever;
   std::array<StepDriver, 8> drivers_;
   std::array<Tmc2209, 8> chips_{};
+  DriverSpiBus::Chips spi_chips_{};
+  DriverSpiBus spi_bus_{spi_chips_};
+  Spi spi1_;
   // A wire is let go of and rises by a resistor: not at once.
   static constexpr Cycle kRise = 4 * kCoreHz / 1'000'000;
   struct Wire {

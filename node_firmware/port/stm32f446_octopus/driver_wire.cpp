@@ -15,6 +15,10 @@ constexpr int kSayEvent = 2, kHearEvent = 4;
 std::uint32_t address_of(const volatile void* place) {
   return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(place));
 }
+void open_drain(OutputPin pin) {
+  Gpio& port = gpio(static_cast<unsigned>(pin.port));
+  port.OTYPER = port.OTYPER | bit(pin.number);
+}
 bool runs(std::size_t stream) {
   return (dma2().stream[stream].CR & Dma::kEnable) != 0;
 }
@@ -30,10 +34,7 @@ void end(std::size_t stream) {
 }  // namespace
 
 void DriverWire::start() {
-  for (const octopus::DriverPins& driver : octopus::kDrivers) {
-    Gpio& g = gpio(static_cast<unsigned>(driver.uart.port));
-    g.OTYPER = g.OTYPER | bit(driver.uart.number);
-  }
+  for (const octopus::DriverPins& driver : octopus::kDrivers) open_drain(driver.uart);
   enable_clock(rcc().AHB1ENR, Rcc::kDma2);
   enable_clock(rcc().APB2ENR, Rcc::kTim8);
   constexpr std::uint32_t kTop = 2 * kApb2Hz / (kBaud * step::kSamples);
@@ -52,6 +53,7 @@ void DriverWire::start() {
 void DriverWire::begin(std::size_t driver, std::span<const std::uint8_t> said, std::size_t answer_bytes) {
   wire_ = octopus::kDrivers[driver].uart;
   Gpio& port = gpio(static_cast<unsigned>(wire_.port));
+  open_drain(wire_);  // it may have been a select
   const std::size_t words = step::put_bytes(said, bit(wire_.number), words_);
   count_ =
       words + kAfterLast + (answer_bytes == 0 ? 0 : answer_bytes * kQuartersOfByte + kPatience - kAfterLast);

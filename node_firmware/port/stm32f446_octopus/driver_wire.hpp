@@ -8,8 +8,8 @@
 #include <span>
 
 #include "node_firmware/port/stm32f446_octopus/board.hpp"
-#include "node_firmware/step/driver_chain.hpp"
 #include "node_firmware/step/one_wire.hpp"
+#include "node_firmware/step/tmc2209_datagram.hpp"
 
 namespace kinebus::stm32 {
 
@@ -17,6 +17,7 @@ class DriverWire {
  public:
   /// After the pins were configured.
   static void start();
+  /// Bytes to the driver, and room for those of its answer; the echo is heard, too.
   void begin(std::size_t driver, std::span<const std::uint8_t> said, std::size_t answer_bytes);
   bool done() const;
   std::size_t take(std::span<std::uint8_t> heard);
@@ -37,8 +38,4 @@ class DriverWire {
   std::size_t count_ = 0;  ///< of samples
   OutputPin wire_ = octopus::kDrivers[0].uart;
 };
-static_assert(step::DriverWire<DriverWire>);
-
-using OctopusDrivers = step::DriverChain<DriverWire, octopus::kDrivers.size()>;
-
 }  // namespace kinebus::stm32

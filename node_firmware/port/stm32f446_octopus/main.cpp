@@ -23,7 +23,7 @@
 #include "node_firmware/port/stm32f4/watchdog_port.hpp"
 #include "node_firmware/port/stm32f446_octopus/board.hpp"
 #include "node_firmware/port/stm32f446_octopus/bridge_port.hpp"
-#include "node_firmware/port/stm32f446_octopus/driver_wire.hpp"
+#include "node_firmware/port/stm32f446_octopus/driver_wires.hpp"
 #include "node_firmware/port/stm32f446_octopus/heat_stage.hpp"
 #include "node_firmware/port/stm32f446_octopus/loader_port.hpp"
 #include "node_firmware/port/stm32f446_octopus/step_stage.hpp"
@@ -48,8 +48,8 @@ constinit BridgedCan can_port{gs_usb_device};
 constinit BridgePort usb_port{gs_usb_device, can_port};
 constinit Switches switch_port;
 constinit Motors::Plans plans;
-constinit DriverWire driver_wire;
-constinit OctopusDrivers drivers{driver_wire};
+constinit DriverWires driver_wires;
+constinit OctopusDrivers drivers{driver_wires};
 constinit Motors motors{plans, drivers};
 constinit ParameterFlash<octopus::kParameterSectors, octopus::kParameterPageBytes> parameter_flash;
 constinit PageStore store{parameter_flash};
@@ -89,7 +89,7 @@ void end_node(std::size_t number) {
 
 // The drivers have their settings before the bus hears of the board: 0.25 s; less where they do not answer.
 void settle_drivers() {
-  DriverWire::start();
+  DriverWires::start();
   LocalClock<LocalTimer> clock;
   constexpr LocalTime kLongest = std::chrono::seconds{1};
   while (!drivers.settled() && clock.now() < kLongest) drivers.serve(clock.now());

@@ -15,6 +15,7 @@ namespace kinebus::tmc2209 {
 namespace {
 
 using namespace std::chrono_literals;
+using step::DriverState;
 
 // By hand, with the algorithm of the datasheet.
 TEST(Tmc2209Datagram, HasTheCrcOfTheDatasheet) {
@@ -81,7 +82,7 @@ TEST(OneWire, ALineThatIsStuckSaysNothing) {
 
 TEST(Tmc2209Settings, CurrentsAreNeverMoreThanAskedForAndWithinAStepOfIt) {
   for (std::uint32_t ma = 80; ma <= 2500; ++ma) {
-    const CurrentScale scale = scale_of(ma, ma / 2);
+    const step::CurrentScale scale = scale_of(ma, ma / 2);
     const double full = scale.fine ? 180 / 0.13 : 325 / 0.13;
     const double run = (scale.run + 1) * full / 32;
     EXPECT_LE(run, ma + 1.0);
@@ -94,7 +95,11 @@ TEST(Tmc2209Settings, CurrentsAreNeverMoreThanAskedForAndWithinAStepOfIt) {
 
 /// The wire and a chip that keeps what it is told.
 struct FakeWire {
-  void begin(std::size_t, std::span<const std::uint8_t> said, std::size_t answer_bytes) {
+  void begin(std::size_t, const step::Exchange& exchange) {
+    heard.clear();
+    if (exchange.bus != step::DriverBus::kUart) return;
+    const std::span<const std::uint8_t> said = exchange.said();
+    const std::size_t answer_bytes = exchange.hears - said.size();
     ++exchanges;
     heard.assign(said.begin(), said.end());
     if (!there) return;
@@ -140,7 +145,7 @@ struct Chain : testing::Test {
   }
   FakeWire wire;
   step::DriverChain<FakeWire, 1> chain{wire};
-  Driver& driver = chain.driver(0);
+  step::DriverSocket& driver = chain.driver(0);
   LocalTime now{0};
 };
 
@@ -148,14 +153,14 @@ TEST_F(Chain, ADriverGetsItsSettingsAndEachWriteIsCounted) {
   driver.set({.run_ma = 1200, .hold_ma = 600});
   run(50ms);
   EXPECT_TRUE(chain.settled());
-  EXPECT_EQ(driver.state(), State::kConfigured);
+  EXPECT_EQ(driver.state(), DriverState::kConfigured);
   EXPECT_EQ(wire.registers[reg::kIholdIrun] >> 8 & 31, 26u);  // 27/32 of 1384 mA
   EXPECT_EQ(wire.registers[reg::kChopconf] >> 24 & 15, 4u) << "16 microsteps";
   EXPECT_EQ(wire.gstat, 0u);
   driver.set({.run_ma = 2000, .hold_ma = 600});
   EXPECT_TRUE(driver.usable());
   run(20ms);
-  EXPECT_EQ(driver.state(), State::kConfigured);
+  EXPECT_EQ(driver.state(), DriverState::kConfigured);
   EXPECT_EQ(wire.registers[reg::kIholdIrun] >> 8 & 31, 24u);
   EXPECT_EQ(wire.registers[reg::kChopconf] >> 17 & 1, 0u);
 }
@@ -163,29 +168,29 @@ TEST_F(Chain, ADriverGetsItsSettingsAndEachWriteIsCounted) {
 TEST_F(Chain, AWriteThatDidNotArriveIsFoundAndMadeAgain) {
   wire.deaf_writes = 1;
   run(80ms);
-  EXPECT_EQ(driver.state(), State::kConfigured);
+  EXPECT_EQ(driver.state(), DriverState::kConfigured);
   EXPECT_NE(wire.registers[reg::kGconf], 0u) << "the first of them was lost";
 }
 
 TEST_F(Chain, GarbledAnswersAreAskedForAgainAndSilenceIsSilence) {
   wire.garbled = 3;
   run(80ms);
-  EXPECT_EQ(driver.state(), State::kConfigured);
+  EXPECT_EQ(driver.state(), DriverState::kConfigured);
   wire.there = false;
   run(500ms);
-  EXPECT_EQ(driver.state(), State::kSilent);
+  EXPECT_EQ(driver.state(), DriverState::kSilent);
   EXPECT_FALSE(driver.usable());
   wire.there = true;
   wire.registers.clear();
   run(1s);
-  EXPECT_EQ(driver.state(), State::kConfigured);
+  EXPECT_EQ(driver.state(), DriverState::kConfigured);
   EXPECT_NE(wire.registers[reg::kChopconf], 0u);
 }
 
 TEST_F(Chain, AnotherChipIsNotTakenForOne) {
   wire.version = 0x20;
   run(2s);
-  EXPECT_EQ(driver.state(), State::kSilent);
+  EXPECT_EQ(driver.state(), DriverState::kSilent);
   EXPECT_EQ(wire.count, 250) << "nothing is written into it";
   EXPECT_LT(wire.exchanges, 20) << "it is not asked all the time";
 }
@@ -195,24 +200,24 @@ TEST_F(Chain, ASupplyThatWasGoneIsSeenAndTheSettingsComeBack) {
   wire.gstat = gstat::kReset;
   wire.registers.clear();
   run(200ms);
-  EXPECT_TRUE(driver.lost_settings());
-  EXPECT_EQ(driver.state(), State::kConfigured);
+  EXPECT_TRUE(driver.chip().lost_settings());
+  EXPECT_EQ(driver.state(), DriverState::kConfigured);
   EXPECT_NE(wire.registers[reg::kChopconf], 0u);
   driver.acknowledge();
   run(200ms);
-  EXPECT_FALSE(driver.lost_settings());
+  EXPECT_FALSE(driver.chip().lost_settings());
 }
 
 TEST_F(Chain, AnOpenPhaseCountsInSlowMotionOnly) {
   run(80ms);
   wire.registers[reg::kDrvStatus] = drv_status::kOpenLoad;
   run(1s);
-  EXPECT_FALSE(driver.open_load());
+  EXPECT_FALSE(driver.chip().open_load());
   driver.set_slow_motion(true);
   run(60ms);
-  EXPECT_FALSE(driver.open_load());
+  EXPECT_FALSE(driver.chip().open_load());
   run(200ms);
-  EXPECT_TRUE(driver.open_load());
+  EXPECT_TRUE(driver.chip().open_load());
 }
 
 TEST_F(Chain, OneThatStandsAloneIsLeftAlone) {

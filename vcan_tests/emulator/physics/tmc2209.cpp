@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace kinebus::emulator {
 namespace {
@@ -11,7 +10,6 @@ constexpr std::uint8_t kGconf = 0x00, kGstat = 0x01, kIfcnt = 0x02, kNodeConf = 
                        kIholdIrun = 0x10, kTpowerdown = 0x11, kTstep = 0x12, kTpwmthrs = 0x13,
                        kTcoolthrs = 0x14, kVactual = 0x22, kSgthrs = 0x40, kSgResult = 0x41, kCoolconf = 0x42,
                        kChopconf = 0x6C, kDrvStatus = 0x6F, kPwmconf = 0x70;
-constexpr double kElectricalTurn = 1024;  // microsteps of 1/256
 constexpr Cycle kShortestBit = kCoreHz / 500'000, kLongestBit = kCoreHz / 9'000;
 
 // As the datasheet's example in C has it.
@@ -169,7 +167,7 @@ void Tmc2209::datagram_done(Cycle end) {
 
 void Tmc2209::answer(std::uint8_t address, Cycle end) {
   const std::uint32_t value = read_register(address);
-  if (address == kDrvStatus) measure_load(load_nm_);
+  if (address == kDrvStatus) measure_load(rotor_.load_nm());
   std::vector<std::uint8_t> bytes{0x05, 0xFF, address};
   for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::uint8_t>(value >> shift));
   bytes.push_back(static_cast<std::uint8_t>(crc_of(bytes, 7)));
@@ -298,24 +296,7 @@ void Tmc2209::on_step(bool direction, Cycle now) {
   // Until then TSTEP is that of the last step.
   stands_at_ = now + static_cast<Cycle>((1 << 20) / p_.clock_hz * static_cast<double>(kCoreHz));
   if (!bridges_on()) return update_diag();
-  field_ += way;
-  const double field = static_cast<double>(field_) - slipped_;
-  const double torque = torque_nm();
-  const double lag_limit = kElectricalTurn / 4;
-  const double wanted = load_nm_ >= torque
-                            ? lag_limit
-                            : std::asin(load_nm_ / torque) * kElectricalTurn / (2 * std::numbers::pi);
-  double rotor = field - (direction ? wanted : -wanted);
-  if (load_nm_ >= torque) rotor = rotor_;
-  double load = load_nm_;
-  if (stops_ && (stop_above_ ? rotor > stop_counts_ : rotor < stop_counts_)) {
-    rotor = stop_counts_;
-    load = torque;
-  }
-  // Half a turn behind, it falls back into the next place.
-  if (std::abs(field - rotor) > kElectricalTurn / 2)
-    slipped_ += field > rotor ? kElectricalTurn : -kElectricalTurn;
-  rotor_ = rotor;
+  const double load = rotor_.on_field(way, torque_nm());
   steps_since_measure_ += std::abs(way);
   if (steps_since_measure_ >= 256) {  // each full step
     steps_since_measure_ = 0;

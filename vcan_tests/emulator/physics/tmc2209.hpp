@@ -1,15 +1,14 @@
 #pragma once
 // A TMC2209 with its motor, after its datasheet (rev. 1.09): single wire UART with its bit times, registers,
-// chopper modes, current scale, StallGuard, DIAG, and what it finds out about motor, heat and supply. Of the
-// motor it knows what a driver sees: the field turns with the steps, the rotor follows as far as the
-// current's torque goes, or slips by an electrical turn.
+// chopper modes, current scale, StallGuard, DIAG, and what it finds out about motor, heat and supply.
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "vcan_tests/emulator/cycle.hpp"
+#include "vcan_tests/emulator/physics/driven_rotor.hpp"
+#include "vcan_tests/emulator/physics/socketed_driver.hpp"
 
 namespace kinebus::emulator {
 
@@ -24,7 +23,7 @@ struct Tmc2209Parameters {
   int pins_resolution = 8;          ///< microsteps by MS1 and MS2 at ground: address 0
 };
 
-class Tmc2209 {
+class Tmc2209 final : public SocketedDriver {
  public:
   Tmc2209() : Tmc2209(Tmc2209Parameters{}) {}
   explicit Tmc2209(const Tmc2209Parameters& parameters);
@@ -36,9 +35,9 @@ class Tmc2209 {
   void advance(Cycle now);
 
   // Pins.
-  void on_enable(bool enabled);
-  void on_step(bool direction, Cycle now);
-  bool diag() const { return diag_; }
+  void on_enable(bool enabled) override;
+  void on_step(bool direction, Cycle now) override;
+  bool diag() const override { return diag_; }
 
   // What happens to it.
   void set_supply(bool on);
@@ -50,11 +49,10 @@ class Tmc2209 {
     shorted_ = is;
     short_found();
   }
-  void set_load(double nm) { load_nm_ = nm; }  ///< against every motion
-  /// The carriage does not go beyond, counts from where it stood at power-up.
-  void set_end_stop(double counts, bool above) { stops_ = true, stop_counts_ = counts, stop_above_ = above; }
+  void set_load(double nm) { rotor_.set_load(nm); }
+  void set_end_stop(double counts, bool above) { rotor_.set_end_stop(counts, above); }
 
-  double rotor_counts() const { return rotor_; }
+  double rotor_counts() const override { return rotor_.counts(); }
   std::uint32_t read_register(std::uint8_t address) const;
   double run_amperes() const { return amperes(registers_.at(0x10) >> 8 & 31); }
   double hold_amperes() const { return amperes(registers_.at(0x10) & 31); }
@@ -100,9 +98,8 @@ class Tmc2209 {
   // Motor and what the chip finds.
   double celsius_ = 40;
   bool too_hot_ = false, pre_warning_ = false, open_ = false, shorted_ = false, short_kept_ = false;
-  std::int64_t field_ = 0;
-  double rotor_ = 0, slipped_ = 0, load_nm_ = 0, stop_counts_ = 0;
-  bool stops_ = false, stop_above_ = true, diag_ = false;
+  DrivenRotor rotor_;
+  bool diag_ = false;
   Cycle last_step_ = 0, tstep_cycles_ = kNever, stands_at_ = kNever;
   std::uint32_t noise_ = 1;
   std::uint32_t stall_guard_ = 510;
