@@ -1,7 +1,6 @@
 #include "gateway/motion/jerk_lookahead.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -11,23 +10,15 @@ namespace {
 
 // Of a phase: shorter ones are rounding, 3 pm of path at 300 mm/s.
 constexpr double kBriefest_s = 1e-11;
-// Of a piece that is left: rounding of positions.
-constexpr double kShortest_mm = 1e-9;
+constexpr double kShortest_mm = JerkWindow::kShortest_mm;
 // The peak of a stretch that reaches no cap: to 1e-6 of what there is to gain.
 constexpr int kHalvings = 20;
 // The same where the stretch begins and ends at rest, and would not be passed at all.
 constexpr int kMostHalvings = 200;
 // Times that one stretch may be tried with a higher cap than its lowest.
 constexpr int kRaises = 8;
-// A corner is blended by two pieces, whose caps are the same but for rounding and the joints.
-constexpr std::size_t kBlendPieces = 2;
-constexpr double kOneSpeed = 0.97;
 // So near to a bend no ramp begins.
 constexpr double kBeside_mm = 0.02;
-constexpr PlanPiece::Even kUnbounded{std::numeric_limits<double>::infinity(),
-                                     std::numeric_limits<double>::infinity()};
-// Over a bend that takes nearly all of the jerk: no stretch is so long.
-constexpr PlanPiece::Even kNoRamp{1e-9, 1e-9};
 
 }  // namespace
 
@@ -40,120 +31,8 @@ void JerkLookahead::clear() {
   planned_finish_ = to_the_end_ = kept_ = false;
 }
 
-/// The window as arrays, from the first piece that is held.
-void JerkLookahead::load() {
-  const std::uint64_t first = path_->first(), end = path_->added();
-  const auto count = static_cast<std::size_t>(end - first);
-  leaves_ = std::bit_ceil(std::max<std::size_t>(count, 1));
-  starts_.resize(count + 1);
-  speeds_.resize(count);
-  ramp_speeds_.resize(count);
-  even_.resize(count);
-  touch_jerk_.resize(count);
-  lowest_.assign(2 * leaves_, std::numeric_limits<std::uint32_t>::max());
-  starts_[0] = window_at_;
-  for (std::size_t i = 0; i < count; ++i) {
-    const PlanPiece& piece = path_->piece(first + i);
-    starts_[i + 1] = starts_[i] + piece.length;
-    speeds_[i] = ramp_speeds_[i] = std::sqrt(piece.ramp_cap);
-    even_[i] = piece.even;
-    touch_jerk_[i] = piece.touch_jerk;
-    lowest_[leaves_ + i] = static_cast<std::uint32_t>(i);
-  }
-  find_lone_bends();
-  for (std::size_t node = leaves_ - 1; node > 0; --node) {
-    const std::uint32_t a = lowest_[2 * node], b = lowest_[2 * node + 1];
-    lowest_[node] = b >= count || (a < count && speeds_[a] <= speeds_[b]) ? a : b;
-  }
-}
-
-/// Bends between straight pieces that are faster may be passed at their cap: a ramp has room beside them. In
-/// curves the pieces next to a slow one are hardly faster, and no ramp would lead out of it.
-void JerkLookahead::find_lone_bends() {
-  const auto bends = [&](std::size_t i) {
-    const PlanPiece& piece = path_->piece(path_->first() + i);
-    return piece.cap > piece.ramp_cap;
-  };
-  for (std::size_t a = 0, b = 0; a < speeds_.size(); a = b + 1) {
-    b = a;
-    if (!bends(a)) continue;
-    double slowest = std::numeric_limits<double>::infinity(), fastest = 0;
-    double ramp = slowest;
-    for (;; ++b) {
-      const double speed = std::sqrt(path_->piece(path_->first() + b).cap);
-      slowest = std::min(slowest, speed);
-      fastest = std::max(fastest, speed);
-      ramp = std::min(ramp, ramp_speeds_[b]);
-      if (b + 1 == speeds_.size() || !bends(b + 1)) break;
-    }
-    // What follows is not known yet, or is no straight piece.
-    if (b + 1 == speeds_.size() || b - a >= kBlendPieces || slowest < kOneSpeed * fastest) continue;
-    const auto is_faster = [&](std::size_t i) { return starts_[i + 1] > starts_[i] && speeds_[i] > slowest; };
-    if (!is_faster(b + 1) || (a > 0 && !is_faster(a - 1))) continue;
-    for (std::size_t i = a; i <= b; ++i) {
-      speeds_[i] = slowest;
-      ramp_speeds_[i] = ramp;
-    }
-  }
-}
-
-std::size_t JerkLookahead::lowest(std::size_t first, std::size_t last) const {
-  std::size_t best = first;
-  for (std::size_t l = first + leaves_, r = last + leaves_ + 1; l < r; l /= 2, r /= 2) {
-    if ((l & 1) != 0) {
-      const std::size_t i = lowest_[l++];
-      if (speeds_[i] < speeds_[best]) best = i;
-    }
-    if ((r & 1) != 0) {
-      const std::size_t i = lowest_[--r];
-      if (speeds_[i] < speeds_[best]) best = i;
-    }
-  }
-  return best;
-}
-
-std::size_t JerkLookahead::piece_after(double position) const {
-  const auto at = std::upper_bound(starts_.begin() + 1, starts_.end(), position + kShortest_mm);
-  return std::min(static_cast<std::size_t>(at - starts_.begin()) - 1, speeds_.size() - 1);
-}
-
-std::size_t JerkLookahead::piece_before(double position) const {
-  const auto at = std::lower_bound(starts_.begin(), starts_.end() - 1, position - kShortest_mm);
-  return at == starts_.begin() ? 0 : static_cast<std::size_t>(at - starts_.begin()) - 1;
-}
-
 void JerkLookahead::put(double from, double to, const SpeedRamp& ramp, bool capped) {
   if (to > from) parts_.push_back({from, to, ramp, capped});
-}
-
-bool JerkLookahead::lower(std::size_t i, double speed, PlanPiece::Even& even) const {
-  const bool steady = speed > ramp_speeds_[i] && speeds_[i] > ramp_speeds_[i];
-  std::size_t tier = 0;
-  while (tier + 1 < even_[i].size() && speed > PlanPiece::kRampSpeeds[tier] * ramp_speeds_[i]) ++tier;
-  const PlanPiece::Even& bound = steady ? kNoRamp : even_[i][tier];
-  if (bound.accel >= even.accel && bound.jerk >= even.jerk) return false;
-  even = {std::min(even.accel, bound.accel), std::min(even.jerk, bound.jerk)};
-  return true;
-}
-
-/// No ramp to more than `speed` passes piece i.
-bool JerkLookahead::blocks(std::size_t i, double speed) const {
-  return ramp_speeds_[i] < speeds_[i] && speed > kOneSpeed * ramp_speeds_[i];
-}
-
-// Ramps on both sides of a place would meet there, and each millisecond has one acceleration.
-PlanPiece::Even JerkLookahead::touching_from(const Stretch& stretch, std::size_t first) const {
-  PlanPiece::Even even = kUnbounded;
-  for (std::size_t i = first; i > 0 && starts_[i - 1] >= stretch.from - kShortest_mm; --i)
-    if (!(starts_[i] > starts_[i - 1])) even.jerk = std::min(even.jerk, touch_jerk_[i - 1]);
-  return even;
-}
-
-PlanPiece::Even JerkLookahead::touching_to(const Stretch& stretch, std::size_t last) const {
-  PlanPiece::Even even = kUnbounded;
-  for (std::size_t i = last + 1; i < speeds_.size() && starts_[i + 1] <= stretch.to + kShortest_mm; ++i)
-    if (!(starts_[i + 1] > starts_[i])) even.jerk = std::min(even.jerk, touch_jerk_[i]);
-  return even;
 }
 
 /// Ramps from both ends to `speed`, each by the bounds of the pieces that it passes.
@@ -163,23 +42,23 @@ JerkLookahead::Fit JerkLookahead::fit(const Stretch& stretch, std::size_t first,
   f.cruise_from = stretch.from;
   f.cruise_to = stretch.to;
   if (speed > stretch.v0) {
-    PlanPiece::Even even = touching_from(stretch, first);
+    PlanPiece::Even even = window_.touching_from(stretch.from, first);
     for (std::size_t i = first;; ++i) {
-      if (lower(i, speed, even)) {
+      if (window_.lower(i, speed, even)) {
         f.up = SpeedRamp(stretch.v0, speed, even.accel, even.jerk);
         f.cruise_from = stretch.from + f.up.length();
       }
-      if (i == last || starts_[i + 1] > f.cruise_from) break;
+      if (i == last || window_.start(i + 1) > f.cruise_from) break;
     }
   }
   if (speed > stretch.v1) {
-    PlanPiece::Even even = touching_to(stretch, last);
+    PlanPiece::Even even = window_.touching_to(stretch.to, last);
     for (std::size_t i = last;; --i) {
-      if (lower(i, speed, even)) {
+      if (window_.lower(i, speed, even)) {
         f.down = SpeedRamp(speed, stretch.v1, even.accel, even.jerk);
         f.cruise_to = stretch.to - f.down.length();
       }
-      if (i == first || starts_[i] < f.cruise_to) break;
+      if (i == first || window_.start(i) < f.cruise_to) break;
     }
   }
   f.fits = f.cruise_from <= f.cruise_to;
@@ -192,13 +71,13 @@ JerkLookahead::Fit JerkLookahead::fit(const Stretch& stretch, std::size_t first,
 bool JerkLookahead::keeps_caps(const Stretch& stretch, std::size_t first, std::size_t last,
                                const Fit& fit) const {
   const double speed = std::max(fit.up.to(), fit.down.from());
-  for (std::size_t i = first; i <= last && starts_[i] < fit.cruise_from; ++i) {
-    const double way = starts_[i + 1] - stretch.from;
+  for (std::size_t i = first; i <= last && window_.start(i) < fit.cruise_from; ++i) {
+    const double way = window_.start(i + 1) - stretch.from;
     const double v = way >= fit.up.length() ? speed : fit.up.speed_after(way);
-    if (speeds_[i] < speed && v > speeds_[i]) return false;
+    if (window_.speed(i) < speed && v > window_.speed(i)) return false;
   }
-  for (std::size_t i = last + 1; i-- > first && starts_[i + 1] > fit.cruise_to;) {
-    if (speeds_[i] < speed) return false;
+  for (std::size_t i = last + 1; i-- > first && window_.start(i + 1) > fit.cruise_to;) {
+    if (window_.speed(i) < speed) return false;
   }
   return true;
 }
@@ -223,11 +102,11 @@ void JerkLookahead::solve_below_caps(const Stretch& stretch, std::size_t first, 
       {.from = to, .to = stretch.to, .v0 = low, .v1 = stretch.v1, .ramp = best.down, .ramped = true});
   // A bend may be in the way of a higher peak, and not of what is behind it.
   double begin = from, end = to;
-  std::size_t a = piece_after(begin), b = piece_before(end);
-  if (a < last && !blocks(a, low) && starts_[a + 1] - begin < kBeside_mm) ++a;
-  if (b > first && !blocks(b, low) && end - starts_[b] < kBeside_mm) --b;
-  for (; a <= last && begin < to && blocks(a, low); ++a) begin = std::min(starts_[a + 1], to);
-  for (; b > first && end > begin && blocks(b, low); --b) end = std::max(starts_[b], begin);
+  std::size_t a = window_.piece_after(begin), b = window_.piece_before(end);
+  if (a < last && !window_.blocks(a, low) && window_.start(a + 1) - begin < kBeside_mm) ++a;
+  if (b > first && !window_.blocks(b, low) && end - window_.start(b) < kBeside_mm) --b;
+  for (; a <= last && begin < to && window_.blocks(a, low); ++a) begin = std::min(window_.start(a + 1), to);
+  for (; b > first && end > begin && window_.blocks(b, low); --b) end = std::max(window_.start(b), begin);
   const bool shorter = begin > stretch.from + kShortest_mm || end < stretch.to - kShortest_mm;
   if (!(low > 0 && shorter && end - begin > kShortest_mm)) return put(from, to, steady);
   put(from, begin, steady);
@@ -243,46 +122,49 @@ void JerkLookahead::solve(const Stretch& stretch) {
   // for in it without end.
   if (stretch.to - stretch.from <= kShortest_mm && stretch.v0 > 0)
     return put(stretch.from, stretch.to, SpeedRamp(stretch.v0, stretch.v0, 1, 1));
-  const std::size_t first = piece_after(stretch.from), last = std::max(first, piece_before(stretch.to));
-  std::size_t slowest = lowest(first, last);
+  const std::size_t first = window_.piece_after(stretch.from),
+                    last = std::max(first, window_.piece_before(stretch.to));
+  std::size_t slowest = window_.lowest(first, last);
   // Lower than v0: the path went on with slower pieces after v0 had been given out.
-  const bool descends = speeds_[slowest] < stretch.v0;
-  double cap = std::max(speeds_[slowest], stretch.v1);
+  const bool descends = window_.speed(slowest) < stretch.v0;
+  double cap = std::max(window_.speed(slowest), stretch.v1);
   Fit f = fit(stretch, first, last, cap);
-  if (!f.fits && ramp_speeds_[slowest] < speeds_[slowest] &&
-      ramp_speeds_[slowest] > std::max(stretch.v0, stretch.v1)) {
+  if (!f.fits && window_.ramp_speed(slowest) < window_.speed(slowest) &&
+      window_.ramp_speed(slowest) > std::max(stretch.v0, stretch.v1)) {
     // No room beside the bend for ramps to its cap.
-    cap = ramp_speeds_[slowest];
+    cap = window_.ramp_speed(slowest);
     f = fit(stretch, first, last, cap);
   }
   if (!f.fits) return solve_below_caps(stretch, first, last, cap);
   for (int k = 0; k < kRaises && !descends; ++k) {
-    if (starts_[slowest + 1] > f.cruise_from) break;
+    if (window_.start(slowest + 1) > f.cruise_from) break;
     if (!(f.cruise_to > f.cruise_from)) break;
     // The slowest piece lies under a ramp: perhaps the next one can be reached all the same.
     const std::size_t next =
-        lowest(piece_after(f.cruise_from), std::max(piece_after(f.cruise_from), piece_before(f.cruise_to)));
-    if (!(speeds_[next] > cap)) break;
-    const Fit raised = fit(stretch, first, last, speeds_[next]);
+        window_.lowest(window_.piece_after(f.cruise_from),
+                       std::max(window_.piece_after(f.cruise_from), window_.piece_before(f.cruise_to)));
+    if (!(window_.speed(next) > cap)) break;
+    const Fit raised = fit(stretch, first, last, window_.speed(next));
     if (!raised.fits || !keeps_caps(stretch, first, last, raised)) break;
     f = raised;
     slowest = next;
-    cap = speeds_[next];
+    cap = window_.speed(next);
   }
   double from = f.cruise_from, to = f.cruise_to;
-  if (starts_[slowest + 1] <= from && starts_[slowest] < from) {
+  if (window_.start(slowest + 1) <= from && window_.start(slowest) < from) {
     to = from;  // under the ramp up: on from its end
-  } else if (starts_[slowest] >= to && starts_[slowest + 1] > to) {
+  } else if (window_.start(slowest) >= to && window_.start(slowest + 1) > to) {
     from = to;
   } else {
     std::size_t a = slowest, b = slowest;
     const auto same = [&](std::size_t i) {
-      return speeds_[i] == cap || (speeds_[i] == speeds_[slowest] && ramp_speeds_[i] == cap);
+      return window_.speed(i) == cap ||
+             (window_.speed(i) == window_.speed(slowest) && window_.ramp_speed(i) == cap);
     };
     while (a > first && same(a - 1)) --a;
     while (b < last && same(b + 1)) ++b;
-    from = std::clamp(starts_[a], from, to);
-    to = std::clamp(starts_[b + 1], from, to);
+    from = std::clamp(window_.start(a), from, to);
+    to = std::clamp(window_.start(b + 1), from, to);
   }
   // What is exactly a ramp needs no more planning.
   const bool up_done = !descends && from <= f.cruise_from, down_done = to >= f.cruise_to;
@@ -312,14 +194,14 @@ void JerkLookahead::plan() {
   parts_.resize(committed_);
   no_room_ = kept_ = false;
   if (path_->empty()) return;
-  load();
+  window_.load(*path_, window_at_);
   const std::uint64_t first = path_->first();
   double at = end_, speed = speed_;
-  for (std::size_t i = 0; i < speeds_.size(); ++i) {
-    const bool last = i + 1 == speeds_.size();
-    if ((!last && !path_->piece(first + i).stop_after) || starts_[i + 1] <= at) continue;
+  for (std::size_t i = 0; i < window_.size(); ++i) {
+    const bool last = i + 1 == window_.size();
+    if ((!last && !path_->piece(first + i).stop_after) || window_.start(i + 1) <= at) continue;
     open_.clear();
-    open_.push_back({.from = at, .to = starts_[i + 1], .v0 = speed, .v1 = 0});
+    open_.push_back({.from = at, .to = window_.start(i + 1), .v0 = speed, .v1 = 0});
     while (!open_.empty()) {
       const Stretch stretch = open_.back();
       open_.pop_back();
@@ -328,7 +210,7 @@ void JerkLookahead::plan() {
       else
         solve(stretch);
     }
-    at = starts_[i + 1];
+    at = window_.start(i + 1);
     speed = 0;
   }
   if (!no_room_ || before_.empty()) return;
@@ -351,7 +233,8 @@ void JerkLookahead::commit() {
     to_the_end_ = true;
   } else {
     // Of a full window, a quarter of its pieces is kept back.
-    const double enough = path_->full() ? starts_[speeds_.size() - speeds_.size() / 4] : parts_.back().to;
+    const double enough =
+        path_->full() ? window_.start(window_.size() - window_.size() / 4) : parts_.back().to;
     for (std::size_t i = committed_; i < parts_.size() && (until == committed_ || parts_[i].to <= enough);
          ++i)
       if (parts_[i].capped) until = i + 1;

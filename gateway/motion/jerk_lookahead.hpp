@@ -8,17 +8,20 @@
 // itself. Where no cap can be reached the stretch is one ramp up and one down. So no speed found is ever too
 // high for what comes later.
 //
+// A lone bend (jerk_window.hpp) has a higher cap at which it is passed at constant speed, with ramps beside
+// it; where there is no room for these, the bend is planned with its lower cap, over which ramps may lie.
+//
 // Streaming: the end of what is known is planned as a stop. What is given out ends at the last place where a
 // cap is reached before that stop: nothing that follows would have made it faster before, but for the choice
 // of ramps next to it. A full window in which no cap is reached gives out its first half. Slow pieces that
 // come to be known later may be too near for the speed that was given out, as their own bounds count for the
 // whole ramp to them: then the next ramp of the plan before, which ends in a stop, is kept.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "gateway/motion/jerk_window.hpp"
 #include "gateway/motion/lookahead.hpp"
 #include "gateway/motion/speed_ramp.hpp"
 #include "gateway/motion/trajectory.hpp"
@@ -62,34 +65,17 @@ class JerkLookahead {
     bool fits = false;
   };
 
-  void load();
-  void find_lone_bends();
   void plan();
   void solve(const Stretch& stretch);
   Fit fit(const Stretch& stretch, std::size_t first, std::size_t last, double speed) const;
-  /// The lower of `even` and of what piece i allows at speeds up to `speed`; false: neither is lower.
-  bool lower(std::size_t i, double speed, PlanPiece::Even& even) const;
-  bool blocks(std::size_t i, double speed) const;
-  /// What the places at both ends of a stretch allow a ramp that begins or ends there.
-  PlanPiece::Even touching_from(const Stretch& stretch, std::size_t first) const;
-  PlanPiece::Even touching_to(const Stretch& stretch, std::size_t last) const;
   bool keeps_caps(const Stretch& stretch, std::size_t first, std::size_t last, const Fit& fit) const;
   void solve_below_caps(const Stretch& stretch, std::size_t first, std::size_t last, double cap);
-  std::size_t piece_after(double position) const;   ///< the first that ends behind `position`
-  std::size_t piece_before(double position) const;  ///< the last that begins before `position`
-  std::size_t lowest(std::size_t first, std::size_t last) const;
   void put(double from, double to, const SpeedRamp& ramp, bool capped = false);
   void commit();
   bool give(Phase& phase);
 
   Lookahead* path_;
-  // The window, loaded for planning: piece i reaches from starts_[i] to starts_[i + 1].
-  std::vector<double> starts_, speeds_;
-  std::vector<double> ramp_speeds_;  ///< the same where it is passed by a ramp
-  std::vector<std::array<PlanPiece::Even, PlanPiece::kRampSpeeds.size()>> even_;
-  std::vector<double> touch_jerk_;
-  std::vector<std::uint32_t> lowest_;  ///< tournament over speeds_
-  std::size_t leaves_ = 0;
+  JerkWindow window_;
   std::vector<Part> parts_, before_;
   std::vector<Stretch> open_;
   std::uint64_t planned_end_ = 0;  ///< of the window for which parts_ holds; 0: none
