@@ -130,6 +130,8 @@ class CortexM4 {
   std::span<std::uint8_t> system_memory() { return {system_memory_, kSystemMemorySize}; }
   /// Where the program is, when it is not running.
   std::uint32_t pc() const { return pc_; }
+  /// Its link register then: a return address, or whatever the compiler keeps in that register.
+  std::uint32_t lr() const;
   /// As a debugger sees memory: flash, SRAM and CCM. Throws std::out_of_range.
   std::uint32_t peek(std::uint32_t address);
   void poke(std::uint32_t address, std::uint32_t value);

@@ -34,6 +34,10 @@ void CortexM4::on_watched() {
   watch_at_ = watched_function_;
 }
 
+std::uint32_t CortexM4::lr() const {
+  return read_register(uc_, UC_ARM_REG_LR);
+}
+
 std::uint32_t CortexM4::peek(std::uint32_t address) {
   const std::uint8_t* at = host(address, 4);
   if (at == nullptr) throw std::out_of_range("no memory there");
