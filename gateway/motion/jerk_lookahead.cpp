@@ -15,6 +15,8 @@ constexpr double kShortest_mm = JerkWindow::kShortest_mm;
 constexpr int kHalvings = 20;
 // The same where the stretch begins and ends at rest, and would not be passed at all.
 constexpr int kMostHalvings = 200;
+// The speed of a bend that has no room for its cap.
+constexpr int kBendHalvings = 6;
 // Times that one stretch may be tried with a higher cap than its lowest.
 constexpr int kRaises = 8;
 // So near to a bend no ramp begins.
@@ -131,9 +133,16 @@ void JerkLookahead::solve(const Stretch& stretch) {
   Fit f = fit(stretch, first, last, cap);
   if (!f.fits && window_.ramp_speed(slowest) < window_.speed(slowest) &&
       window_.ramp_speed(slowest) > std::max(stretch.v0, stretch.v1)) {
-    // No room beside the bend for ramps to its cap.
+    // No room beside the bend for ramps to its cap: for what there is, down to where ramps may pass it.
+    double high = cap;
     cap = window_.ramp_speed(slowest);
     f = fit(stretch, first, last, cap);
+    for (int k = 0; k < kBendHalvings && f.fits; ++k) {
+      const double middle = 0.5 * (cap + high);
+      const Fit tried = fit(stretch, first, last, middle);
+      (tried.fits ? cap : high) = middle;
+      if (tried.fits) f = tried;
+    }
   }
   if (!f.fits) return solve_below_caps(stretch, first, last, cap);
   for (int k = 0; k < kRaises && !descends; ++k) {
@@ -158,8 +167,8 @@ void JerkLookahead::solve(const Stretch& stretch) {
   } else {
     std::size_t a = slowest, b = slowest;
     const auto same = [&](std::size_t i) {
-      return window_.speed(i) == cap ||
-             (window_.speed(i) == window_.speed(slowest) && window_.ramp_speed(i) == cap);
+      return window_.speed(i) == cap || (window_.speed(i) == window_.speed(slowest) &&
+                                         window_.ramp_speed(i) == window_.ramp_speed(slowest));
     };
     while (a > first && same(a - 1)) --a;
     while (b < last && same(b + 1)) ++b;

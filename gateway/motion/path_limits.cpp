@@ -31,15 +31,26 @@ int parts_for(const PathPiece& piece, double part_mm, double part_rad) {
 
 /// Bounds over a stretch of a piece, whose derivatives vary little on it.
 JerkTerms jerk_terms(const PathPiece& geometry, double from, double to) {
-  JerkTerms terms{0, 0, 0};
+  JerkTerms terms{.x1 = 0, .along2 = 0, .along3 = 0, .across3 = 0};
   for (const double s : {from, 0.5 * (from + to), to}) {
     const PosePoint p = geometry.evaluate(s);
-    const auto x3 = geometry.third_derivative(s);
-    terms.x1 = std::max(terms.x1, dot3(p.x1, p.x1));
-    terms.x2 = std::max(terms.x2, dot3(p.x2, p.x2));
-    terms.x3 = std::max(terms.x3, x3[0] * x3[0] + x3[1] * x3[1] + x3[2] * x3[2]);
+    const auto third = geometry.third_derivative(s);
+    const Pose x3{third[0], third[1], third[2]};
+    const double size1 = dot3(p.x1, p.x1), size2 = dot3(p.x2, p.x2), size3 = dot3(x3, x3);
+    terms.x1 = std::max(terms.x1, size1);
+    terms.x2 = std::max(terms.x2, size2);
+    terms.x3 = std::max(terms.x3, size3);
+    const auto along = [&](const Pose& x, double size) {
+      const double dot = dot3(x, p.x1);
+      return size * size1 > 0 ? std::min(dot * dot / (size * size1), 1.0) : 0.0;
+    };
+    terms.along2 = std::max(terms.along2, along(p.x2, size2));
+    terms.along3 = std::max(terms.along3, along(x3, size3));
+    if (size3 > 0) terms.across3 = std::max(terms.across3, 1 - along(x3, size3));
   }
-  return {std::sqrt(terms.x1), std::sqrt(terms.x2), std::sqrt(terms.x3)};
+  for (double* term : {&terms.x1, &terms.x2, &terms.x3, &terms.along2, &terms.along3, &terms.across3})
+    *term = std::sqrt(*term);
+  return terms;
 }
 
 /// Between two places `length` apart.
@@ -80,7 +91,7 @@ Result<void, PoseError> PathLimits::start_of_line(const PathPiece& geometry) {
 /// pose cannot be reached.
 bool PathLimits::jump_terms(const PathPiece& geometry, JerkTerms& terms, JointJerkTerms& joints) const {
   const JerkTerms one = jerk_terms(before_, before_.length, before_.length), two = jerk_terms(geometry, 0, 0);
-  terms = {std::max(one.x1, two.x1), std::max(one.x2, two.x2), std::max(one.x3, two.x3), 0};
+  terms = {std::max(one.x1, two.x1), std::max(one.x2, two.x2), std::max(one.x3, two.x3)};
   const double back = std::min(kJumpLook_mm, before_.length), on = std::min(kJumpLook_mm, geometry.length);
   Sample far_before, before, after, far_after;
   far_before.pose = before_.evaluate(before_.length - back);

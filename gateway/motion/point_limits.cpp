@@ -25,8 +25,8 @@ constexpr double kBendAccel = 0.9;
 constexpr double kJump_per_s = 0.75 / (2 * kCurvatureJump_s);
 constexpr double kJumpJerk = 0.6;
 // Of what bends leave of the jerk, what the tangent's turning (3 x_ss v a) may take; across for the tool,
-// where a right angle leaves 0.6 for the jerk along the path, and in line for a joint.
-constexpr double kTurnJerk = 0.8, kTurnJointJerk = 0.5;
+// where a right angle leaves 0.8 for the jerk along the path, and in line for a joint.
+constexpr double kTurnJerk = 0.6, kTurnJointJerk = 0.5;
 // Share of the acceleration at rest that the cap has to leave, and by how much a cap is lowered for that.
 constexpr double kLeastAccel = 0.15, kLower = 0.9;
 constexpr int kLowerings = 60;
@@ -219,9 +219,9 @@ PlanPiece::Even PointLimits::even(const JerkTerms& terms, const JointJerkTerms* 
                                   const PlanPiece& piece, double x) const {
   const double v = std::sqrt(x);
   PlanPiece::Even even{std::min({piece.accel_between(0, x), piece.decel_between(0, x), kNoAccel}), kNoJerk};
-  const double left = limits_.tool_jerk_mm_per_s3 * kJerkShare - bend_jerk(terms.x3, 0, v);
+  const double most = limits_.tool_jerk_mm_per_s3 * kJerkShare, bend = bend_jerk(terms.x3, 0, v);
   // What jumps is across the path, as its turning is.
-  const double turn = 3 * terms.x2 * v, jump = bend_jerk(0, terms.jump, v);
+  const double left = most - bend, turn = 3 * terms.x2 * v, jump = bend_jerk(0, terms.jump, v);
   if (turn * even.accel > kTurnJerk * left - jump)
     even.accel = std::max(kTurnJerk * left - jump, 0.0) / std::max(turn, 1e-300);
   for (std::size_t j = 0; j < joints_ && joints != nullptr; ++j) {
@@ -229,9 +229,16 @@ PlanPiece::Even PointLimits::even(const JerkTerms& terms, const JointJerkTerms* 
     const double joint_turn = 3 * joints->q2[j] * v;
     if (joint_turn * even.accel > room) even.accel = std::max(room, 0.0) / joint_turn;
   }
+  // Whichever way the bend's own jerk points; or, by how much of it is across the path, and how much along
+  // it.
   const double across = turn * even.accel + jump;
+  const double all_across = across + bend * terms.across3;
+  const double along = bend * terms.along3 + turn * terms.along2 * even.accel;
   if (terms.x1 > 0)
-    even.jerk = std::min(kNoJerk, std::sqrt(std::max(left * left - across * across, 0.0)) / terms.x1);
+    even.jerk =
+        std::min(kNoJerk, std::max(std::sqrt(std::max(left * left - across * across, 0.0)),
+                                   std::sqrt(std::max(most * most - all_across * all_across, 0.0)) - along) /
+                              terms.x1);
   for (std::size_t j = 0; j < joints_ && joints != nullptr; ++j) {
     const double room =
         jerk_[j] - bend_jerk(joints->q3[j], joints->jump[j], v) - 3 * joints->q2[j] * v * even.accel;

@@ -40,6 +40,8 @@ inline void allow_any_acceleration(PlanPiece& piece) {
 /// a place without length, the jump of x_ss there.
 struct JerkTerms {
   double x1 = 1, x2 = 0, x3 = 0, jump = 0;
+  /// Greatest shares: of x_ss and x_sss along the path, and of x_sss across it.
+  double along2 = 1, along3 = 1, across3 = 1;
 };
 /// Greatest magnitudes of the joints' derivatives by s on a stretch of path, and the jumps of the second.
 struct JointJerkTerms {
