@@ -117,6 +117,11 @@ void set_joint(Writer& writer, const JointDescription& joint) {
   writer.set_axis(axis, kRunCurrent, joint.run_current_ma);
   writer.set_axis(axis, kHoldCurrent, joint.hold_current_ma);
   writer.set_axis(axis, kCountsPerUnit, 1000 * counts);
+  if (joint.driver) {
+    writer.set_axis(axis, kDriverKind, joint.driver->stands_alone ? 0 : 1);
+    writer.set_axis(axis, kSenseResistor, joint.driver->sense_resistor_mohm.value_or(0));
+    writer.set_axis(axis, kSpreadCycleAbove, joint.driver->stealthchop_below_per_s * counts);
+  }
   if (joint.motor) set_motor(writer, axis, *joint.motor, joint.drive);
   if (joint.has_encoder()) {
     writer.set(kFollowingPdo, 0x4000'0480u + joint.node_id);
@@ -211,11 +216,11 @@ std::optional<Sentence> load_sensor_missing(const MachineDescription& machine, s
   if (state == kSilent)
     return say(
         "%1 is to home by its driver's load, and the driver does not answer node %2: look at the motor "
-        "supply and the jumper for UART in its socket, or home it at a switch",
+        "supply and the jumpers in its socket, or home it at a switch",
         name, node_id);
   return say(
-      "%1 is to home by its driver's load, and node %2 has no driver there that tells it (TMC2209 by "
-      "UART): home it at a switch, method 17 to 22",
+      "%1 is to home by its driver's load, and node %2 has no driver there that tells it (TMC2209, "
+      "TMC5160, TMC2130): home it at a switch, method 17 to 22",
       name, node_id);
 }
 

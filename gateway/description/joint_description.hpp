@@ -109,6 +109,15 @@ struct ScaleDescription {
   friend bool operator==(const ScaleDescription&, const ScaleDescription&) = default;
 };
 
+/// The stepper driver behind a board's step and direction pins (2170h), where it is a chip of its own.
+struct DriverDescription {
+  bool stands_alone = false;  ///< nobody is to speak to it: another chip than a TMC, or its jumpers say so
+  /// Of its module; none: as most modules of the chip have it. Currents follow from it.
+  std::optional<std::uint32_t> sense_resistor_mohm{};
+  double stealthchop_below_per_s = 0;  ///< mm/s or rad/s: quiet up to there; 0: SpreadCycle at all speeds
+  friend bool operator==(const DriverDescription&, const DriverDescription&) = default;
+};
+
 struct JointDescription {
   std::string name;          ///< as Kinematics::joint_info names it: "tower1", "C", "E"
   bool rotary = false;       ///< units are rad instead of mm
@@ -123,6 +132,7 @@ struct JointDescription {
   std::uint16_t run_current_ma = 2000;
   std::uint16_t hold_current_ma = 1500;
   std::optional<std::uint32_t> max_current_ma{};  ///< what M906 may ask for at most; none: run_current_ma
+  std::optional<DriverDescription> driver;        ///< none: spoken to, as most of its kind
   std::optional<MotorDescription> motor;          ///< none: the node's cautious guess, no encoder
   std::optional<ScaleDescription> scale;          ///< none: nobody but the motor knows where the joint is
   std::optional<HomingDescription> homing;        ///< none: the position at power-up is zero (E, endless C)

@@ -34,10 +34,11 @@ class LoadRules {
     threshold();
     speeds();
     way();
-    require(
-        !j_.motor, {key_ + "method", "joint." + j_.name + ".motor"},
-        say("%1 on a node that drives the motor itself", static_cast<int>(h_.method)),
-        say("a stepper driver that tells its load (TMC2209), and no [joint.%1.motor]; or a switch", j_.name));
+    require(!j_.motor, {key_ + "method", "joint." + j_.name + ".motor"},
+            say("%1 on a node that drives the motor itself", static_cast<int>(h_.method)),
+            say("a stepper driver that tells its load (TMC2209, TMC5160, TMC2130), and no [joint.%1.motor]; "
+                "or a switch",
+                j_.name));
   }
 
  private:

@@ -81,6 +81,7 @@ class Rules {
     const bool belt = std::holds_alternative<CoreXyGeometry>(d_.kinematics) && j.name.starts_with("belt");
     require(j.homing.has_value() || !j.travel.limited() || belt, {key + "homing", key + "travel_" + u},
             say("no table"), say("[%1homing]: a joint with limited travel must find its position", key));
+    if (j.driver) driver(j, *j.driver, key);
     if (j.scale) {
       require(!j.rotary, {key + "scale.pulses_per_mm"}, say("a scale on a joint that turns"),
               say("a joint that moves along a rail"));
@@ -98,6 +99,25 @@ class Rules {
     if (j.scale) absolute_scale(j, *j.scale, key);
     if (j.homing) homing(j, *j.homing, key + "homing.");
     calibration(j, key + "calibration.");
+  }
+
+  void driver(const JointDescription& j, const DriverDescription& driver, const std::string& key) {
+    const std::uint32_t sense = driver.sense_resistor_mohm.value_or(100);
+    require(sense >= 10 && sense <= 1000, {key + "driver.sense_resistor_mohm"},
+            Sentence::verbatim(std::to_string(sense)),
+            say("10 to 1000: 110 on most modules, 75 with a TMC5160"));
+    require(!driver.stands_alone || !j.homing || !j.homing->by_load(),
+            {key + "driver.stands_alone", key + "homing.method"},
+            say("homing by the load of a driver that nobody speaks to"),
+            say("a method of 17..22 or 37, or no stands_alone"));
+    const std::string u = j.rotary ? "deg" : "mm";
+    require(!driver.stands_alone || (!driver.sense_resistor_mohm && driver.stealthchop_below_per_s == 0),
+            {key + "driver.stands_alone", key + "driver.sense_resistor_mohm",
+             key + "driver.stealthchop_below_" + u + "_per_s"},
+            say("settings for a driver that nobody speaks to"), say("stands_alone alone, or without it"));
+    require(!j.motor, {key + "driver", key + "motor"},
+            say("a driver behind step and direction, and a motor that the node drives itself"),
+            say("one of the two tables"));
   }
 
   void absolute_scale(const JointDescription& j, const ScaleDescription& scale, const std::string& key) {

@@ -90,6 +90,11 @@ void visit_joint(V& v, JointDescription& j, bool own_travel) {
   v.integer("run_current_ma", j.run_current_ma, 50, 5000, Need::kRequired);
   v.integer("hold_current_ma", j.hold_current_ma, 0, 5000, Need::kRequired);
   v.optional_integer("max_current_ma", j.max_current_ma);
+  v.optional_table("driver", j.driver, [&](DriverDescription& d) {
+    v.flag("stands_alone", d.stands_alone, Need::kOptional);
+    v.optional_integer("sense_resistor_mohm", d.sense_resistor_mohm);
+    v.unless_zero("stealthchop_below_" + u + "_per_s", d.stealthchop_below_per_s, {0.01, 10000}, unit);
+  });
   v.optional_table("motor", j.motor, [&](MotorDescription& m) {
     v.number("resistance_ohm", m.resistance_ohm, {0, 60}, Need::kOptional);
     v.number("inductance_mh", m.inductance_mh, {0, 60}, Need::kOptional);

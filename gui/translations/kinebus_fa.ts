@@ -2005,8 +2005,8 @@
         <translation>%1 روی گره‌ای که خود موتور را می‌راند</translation>
     </message>
     <message>
-        <source>a stepper driver that tells its load (TMC2209), and no [joint.%1.motor]; or a switch</source>
-        <translation>درایور پله‌ای که بار را اعلام کند (TMC2209) و بدون [joint.%1.motor]؛ یا یک کلید</translation>
+        <source>a stepper driver that tells its load (TMC2209, TMC5160, TMC2130), and no [joint.%1.motor]; or a switch</source>
+        <translation>درایور پله‌ای که بار را اعلام کند (TMC2209، TMC5160، TMC2130) و بدون [joint.%1.motor]؛ یا یک کلید</translation>
     </message>
     <message>
         <source>a load for a joint that does not home by it</source>
@@ -2053,12 +2053,12 @@
         <translation>کلید (17..22) برای مفصلی که خانه‌یابی‌اش ابزار و میز را از هم دور می‌کند</translation>
     </message>
     <message>
-        <source>%1 is to home by its driver&apos;s load, and the driver does not answer node %2: look at the motor supply and the jumper for UART in its socket, or home it at a switch</source>
-        <translation>%1 باید با بار درایور خود خانه‌یابی کند و درایور به گره %2 پاسخ نمی‌دهد: تغذیه موتور و جامپر UART در سوکت آن را ببینید، یا با کلید خانه‌یابی کنید</translation>
+        <source>%1 is to home by its driver&apos;s load, and the driver does not answer node %2: look at the motor supply and the jumpers in its socket, or home it at a switch</source>
+        <translation>%1 باید با بار درایور خود خانه‌یابی کند و درایور به گره %2 پاسخ نمی‌دهد: تغذیه موتور و جامپرهای سوکت آن را ببینید، یا با کلید خانه‌یابی کنید</translation>
     </message>
     <message>
-        <source>%1 is to home by its driver&apos;s load, and node %2 has no driver there that tells it (TMC2209 by UART): home it at a switch, method 17 to 22</source>
-        <translation>%1 باید با بار درایور خود خانه‌یابی کند و گره %2 آنجا درایوری ندارد که آن را اعلام کند (TMC2209 با UART): با کلید خانه‌یابی کنید، روش 17 تا 22</translation>
+        <source>%1 is to home by its driver&apos;s load, and node %2 has no driver there that tells it (TMC2209, TMC5160, TMC2130): home it at a switch, method 17 to 22</source>
+        <translation>%1 باید با بار درایور خود خانه‌یابی کند و گره %2 آنجا درایوری ندارد که آن را اعلام کند (TMC2209، TMC5160، TMC2130): با کلید خانه‌یابی کنید، روش 17 تا 22</translation>
     </message>
     <message>
         <source>%1: its driver told a stop where there is none, or not twice at one place; stall_threshold is too high, the motion too rough, or DIAG is not led to the input</source>
@@ -4803,6 +4803,34 @@
     <message>
         <source>an address http://HOST/PATH, https://HOST/PATH or, on this computer, :PORT/PATH</source>
         <translation>نشانی: http://HOST/PATH، https://HOST/PATH یا روی همین رایانه :PORT/PATH</translation>
+    </message>
+    <message>
+        <source>10 to 1000: 110 on most modules, 75 with a TMC5160</source>
+        <translation>10 تا 1000: در بیشتر ماژول‌ها 110، با TMC5160 برابر 75</translation>
+    </message>
+    <message>
+        <source>homing by the load of a driver that nobody speaks to</source>
+        <translation>خانه‌یابی با بار درایوری که کسی با آن سخن نمی‌گوید</translation>
+    </message>
+    <message>
+        <source>a method of 17..22 or 37, or no stands_alone</source>
+        <translation>روش 17 تا 22 یا 37، یا بدون stands_alone</translation>
+    </message>
+    <message>
+        <source>settings for a driver that nobody speaks to</source>
+        <translation>تنظیمات برای درایوری که کسی با آن سخن نمی‌گوید</translation>
+    </message>
+    <message>
+        <source>stands_alone alone, or without it</source>
+        <translation>تنها stands_alone، یا بدون آن</translation>
+    </message>
+    <message>
+        <source>a driver behind step and direction, and a motor that the node drives itself</source>
+        <translation>درایوری پشت پله و جهت، و موتوری که خود گره آن را می‌راند</translation>
+    </message>
+    <message>
+        <source>one of the two tables</source>
+        <translation>یکی از دو جدول</translation>
     </message>
 </context>
 <context>

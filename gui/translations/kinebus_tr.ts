@@ -2005,8 +2005,8 @@
         <translation>motoru kendisi süren bir düğümde %1</translation>
     </message>
     <message>
-        <source>a stepper driver that tells its load (TMC2209), and no [joint.%1.motor]; or a switch</source>
-        <translation>yükünü bildiren bir adım motoru sürücüsü (TMC2209) ve [joint.%1.motor] olmadan; ya da bir anahtar</translation>
+        <source>a stepper driver that tells its load (TMC2209, TMC5160, TMC2130), and no [joint.%1.motor]; or a switch</source>
+        <translation>yükünü bildiren bir adım motoru sürücüsü (TMC2209, TMC5160, TMC2130) ve [joint.%1.motor] olmadan; ya da bir anahtar</translation>
     </message>
     <message>
         <source>a load for a joint that does not home by it</source>
@@ -2053,12 +2053,12 @@
         <translation>referans alması takımla tablayı uzaklaştıran eklem için bir anahtar (17..22)</translation>
     </message>
     <message>
-        <source>%1 is to home by its driver&apos;s load, and the driver does not answer node %2: look at the motor supply and the jumper for UART in its socket, or home it at a switch</source>
-        <translation>%1 sürücüsünün yüküyle referans alacak, sürücü ise düğüm %2 için yanıt vermiyor: motor beslemesine ve yuvasındaki UART atlama teline bakın ya da anahtarla referans alın</translation>
+        <source>%1 is to home by its driver&apos;s load, and the driver does not answer node %2: look at the motor supply and the jumpers in its socket, or home it at a switch</source>
+        <translation>%1 sürücüsünün yüküyle referans alacak, sürücü ise düğüm %2 için yanıt vermiyor: motor beslemesine ve yuvasındaki atlama tellerine bakın ya da anahtarla referans alın</translation>
     </message>
     <message>
-        <source>%1 is to home by its driver&apos;s load, and node %2 has no driver there that tells it (TMC2209 by UART): home it at a switch, method 17 to 22</source>
-        <translation>%1 sürücüsünün yüküyle referans alacak, düğüm %2 ise orada bunu bildiren bir sürücüye sahip değil (UART ile TMC2209): anahtarla referans alın, yöntem 17..22</translation>
+        <source>%1 is to home by its driver&apos;s load, and node %2 has no driver there that tells it (TMC2209, TMC5160, TMC2130): home it at a switch, method 17 to 22</source>
+        <translation>%1 sürücüsünün yüküyle referans alacak, düğüm %2 ise orada bunu bildiren bir sürücüye sahip değil (TMC2209, TMC5160, TMC2130): anahtarla referans alın, yöntem 17..22</translation>
     </message>
     <message>
         <source>%1: its driver told a stop where there is none, or not twice at one place; stall_threshold is too high, the motion too rough, or DIAG is not led to the input</source>
@@ -4803,6 +4803,34 @@
     <message>
         <source>an address http://HOST/PATH, https://HOST/PATH or, on this computer, :PORT/PATH</source>
         <translation>bir adres: http://MAKİNE/YOL, https://MAKİNE/YOL ya da bu bilgisayarda :KAPI/YOL</translation>
+    </message>
+    <message>
+        <source>10 to 1000: 110 on most modules, 75 with a TMC5160</source>
+        <translation>10..1000: çoğu modülde 110, TMC5160 ile 75</translation>
+    </message>
+    <message>
+        <source>homing by the load of a driver that nobody speaks to</source>
+        <translation>kimsenin konuşmadığı bir sürücünün yüküyle referans alma</translation>
+    </message>
+    <message>
+        <source>a method of 17..22 or 37, or no stands_alone</source>
+        <translation>17..22 ya da 37 yöntemi, ya da stands_alone olmadan</translation>
+    </message>
+    <message>
+        <source>settings for a driver that nobody speaks to</source>
+        <translation>kimsenin konuşmadığı bir sürücü için ayarlar</translation>
+    </message>
+    <message>
+        <source>stands_alone alone, or without it</source>
+        <translation>yalnız stands_alone, ya da o olmadan</translation>
+    </message>
+    <message>
+        <source>a driver behind step and direction, and a motor that the node drives itself</source>
+        <translation>adım ve yön arkasında bir sürücü ve düğümün kendisinin sürdüğü bir motor</translation>
+    </message>
+    <message>
+        <source>one of the two tables</source>
+        <translation>iki tablodan biri</translation>
     </message>
 </context>
 <context>

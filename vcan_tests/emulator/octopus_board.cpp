@@ -238,6 +238,7 @@ void OctopusBoard::advance_devices(Cycle now) {
     if (moves) chip.advance(now);
     if (moves || wire.rises <= now || chip.pulls_low() != wire.chip_low) look_at_wire(axis, now);
     wires_next_ = std::min({wires_next_, chip.next_event(), wire.rises});
+    if (spi_chips_[axis]) spi_chips_[axis]->advance(now);
   }
   look_at_diag();
   adc_.advance(now);

@@ -93,6 +93,8 @@ class OctopusBoard final : public Stm32f4Chip, public UsbSocket {
   /// In the place of a TMC2209, with the jumpers for SPI; before power.
   void plug(int axis, const SpiDriverParameters& parameters);
   TmcSpiChip& spi_driver(int axis) { return *spi_chips_[static_cast<std::size_t>(axis)]; }
+  /// Of the motor behind whatever is in the socket.
+  DrivenRotor& rotor(int axis) { return socket(static_cast<std::size_t>(axis)).rotor(); }
   DriverSpiBus& driver_spi() { return spi_bus_; }
   /// A jumper leads DIAG to the stop beside the driver.
   void wire_diag(int axis) {

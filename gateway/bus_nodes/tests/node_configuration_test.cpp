@@ -133,6 +133,22 @@ TEST(Alarms, EmergenciesAreToldInWords) {
   EXPECT_EQ(unknown.words, "node 1: hardware fault (EMCY 5999h)");
 }
 
+TEST(NodeConfiguration, AStepperDriverIsToldWhatTheFileSaysOfItsModule) {
+  MachineDescription m1 = default_m1();
+  const NodeConfiguration usual = configure_node(m1, 1);
+  EXPECT_EQ(written(usual, object::kDriverKind), 1);
+  EXPECT_EQ(written(usual, object::kSenseResistor), 0);
+  EXPECT_EQ(written(usual, object::kSpreadCycleAbove), 0);
+  m1.joints[0].driver = DriverDescription{.sense_resistor_mohm = 150, .stealthchop_below_per_s = 25};
+  m1.joints[1].driver = DriverDescription{.stands_alone = true};
+  const NodeConfiguration c = configure_node(m1, 1);
+  EXPECT_EQ(written(c, object::kDriverKind), 1);
+  EXPECT_EQ(written(c, object::kSenseResistor), 150);
+  EXPECT_EQ(written(c, object::kSpreadCycleAbove), 25 * 1280);
+  EXPECT_EQ(written(c, second(object::kDriverKind)), 0);
+  EXPECT_NE(c.fingerprint, usual.fingerprint) << "kept by the node as all of its parameters";
+}
+
 TEST(NodeConfiguration, AJointThatHomesByLoadTellsItsDriverWhenAndIsAskedWhetherItCan) {
   MachineDescription m1 = default_m1();
   EXPECT_TRUE(configure_node(m1, 1).load_sensors.empty());

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "gateway/description/machine_file.hpp"
 #include "gateway/description/tests/machine_text.hpp"
 

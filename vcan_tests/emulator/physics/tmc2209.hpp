@@ -53,6 +53,7 @@ class Tmc2209 final : public SocketedDriver {
   void set_end_stop(double counts, bool above) { rotor_.set_end_stop(counts, above); }
 
   double rotor_counts() const override { return rotor_.counts(); }
+  DrivenRotor& rotor() override { return rotor_; }
   std::uint32_t read_register(std::uint8_t address) const;
   double run_amperes() const { return amperes(registers_.at(0x10) >> 8 & 31); }
   double hold_amperes() const { return amperes(registers_.at(0x10) & 31); }

@@ -241,26 +241,38 @@ void TmcSpiChip::set_supply(bool on) {
   update_diag();
 }
 
+void TmcSpiChip::advance(Cycle now) {
+  if (now < stands_at_) return;
+  stands_at_ = tstep_cycles_ = kNever;
+  update_diag();
+}
+
 void TmcSpiChip::on_step(bool direction, Cycle now) {
   const int way = 256 / microsteps() * (direction ? 1 : -1);
   const Cycle since = now - last_step_;
   last_step_ = now;
   tstep_cycles_ = since > kCoreHz / 10 ? kNever : since / static_cast<Cycle>(std::abs(way));
+  stands_at_ = now + static_cast<Cycle>((1 << 20) / p_.clock_hz * static_cast<double>(kCoreHz));
   if (!bridges_on()) return update_diag();
   const double torque = torque_nm();
   felt_nm_ = std::max(felt_nm_, rotor_.on_field(way, torque));
   since_measure_ += std::abs(way);
-  if (since_measure_ >= 4 * 256) {
-    since_measure_ = 0;
-    // Of the most load in four full steps; in SpreadCycle only, and moved by SGT: at 63 no load is a stall.
-    const int threshold = static_cast<int>(registers_.at(spi_reg::kCoolconf) >> 16 & 0x7F);
-    const int sgt = threshold >= 64 ? threshold - 128 : threshold;
-    const double share = torque <= 0 ? 1 : std::min(felt_nm_ / torque, 1.0);
-    const double result = 500 * (1 - share) + 4 * sgt;
-    stall_guard_ = stealth() ? 0x3FF : static_cast<std::uint32_t>(std::clamp(result, 0.0, 1023.0));
-    felt_nm_ = 0;
-  }
+  const bool filtered = (registers_.at(spi_reg::kCoolconf) >> 24 & 1) != 0;
+  if (since_measure_ >= (filtered ? 4 : 1) * 256) measure_load(torque);
   update_diag();
+}
+
+// Each full step, filtered each four; in SpreadCycle only, and moved by SGT: at 63 no load is a stall.
+void TmcSpiChip::measure_load(double torque) {
+  const int threshold = static_cast<int>(registers_.at(spi_reg::kCoolconf) >> 16 & 0x7F);
+  const int sgt = threshold >= 64 ? threshold - 128 : threshold;
+  const double share = torque <= 0 ? 1 : std::min(felt_nm_ / torque, 1.0);
+  noise_ = noise_ * 1'664'525u + 1'013'904'223u;
+  const double noise = p_.load_noise * (static_cast<double>(noise_ >> 8) / (1 << 23) - 1);
+  const double result = p_.full_load + (p_.free_load - p_.full_load) * (1 - share) + noise + 4 * sgt;
+  stall_guard_ = stealth() ? 0x3FF : static_cast<std::uint32_t>(std::clamp(result, 0.0, 1023.0));
+  since_measure_ = 0;
+  felt_nm_ = 0;
 }
 
 // DIAG1, as the board has it: driven high where GCONF says so.

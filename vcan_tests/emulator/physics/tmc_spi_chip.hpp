@@ -20,6 +20,9 @@ struct SpiDriverParameters {
   double bond_ohm = 0;
   double clock_hz = 12.2e6;
   double torque_nm_per_a = 0.3;  ///< of the motor
+  double free_load = 500;        ///< SG_RESULT of this motor without load, at SGT 0 ...
+  double full_load = 0;          ///< ... and with all that it can turn
+  double load_noise = 0;         ///< of SG_RESULT, each way at most
 };
 constexpr SpiDriverParameters tmc2130_parameters() {
   return {.kind = SpiDriverKind::kTmc2130, .sense_ohm = 0.11, .bond_ohm = 0.02, .clock_hz = 13e6};
@@ -39,10 +42,13 @@ class TmcSpiChip final : public SocketedDriver {
   std::uint8_t exchange(std::uint8_t sent, const Clock& clock, Cycle now);
   bool drives_line() const { return supplied_ && answers_ && selected_; }
 
+  /// TSTEP is that of the last step until 2^20 of the chip's clocks have gone by without one.
+  void advance(Cycle now);
   void on_enable(bool enabled) override;
   void on_step(bool direction, Cycle now) override;
   bool diag() const override { return diag_; }
   double rotor_counts() const override { return rotor_.counts(); }
+  DrivenRotor& rotor() override { return rotor_; }
 
   // What happens to it.
   void set_supply(bool on);
@@ -53,7 +59,6 @@ class TmcSpiChip final : public SocketedDriver {
   void short_to_ground(bool is);
   void short_to_supply(bool is);  ///< told by a TMC5160 only
   void set_charge_pump_low(bool low);
-  DrivenRotor& rotor() { return rotor_; }
 
   std::uint32_t read_register(std::uint8_t address) const;
   double run_amperes() const { return amperes(registers_.at(0x10) >> 8 & 31); }
@@ -78,6 +83,7 @@ class TmcSpiChip final : public SocketedDriver {
   std::uint32_t drv_status() const;
   std::uint8_t spi_status() const;
   double amperes(std::uint32_t scale) const;
+  void measure_load(double torque);
   double torque_nm() const { return p_.torque_nm_per_a * run_amperes() * (open_ ? 0.5 : 1); }
   double tstep() const;
   void shorts_found();
@@ -102,10 +108,11 @@ class TmcSpiChip final : public SocketedDriver {
   DrivenRotor rotor_;
   bool too_hot_ = false, pre_warning_ = false, open_ = false, charge_pump_low_ = false;
   bool shorted_to_ground_ = false, shorted_to_supply_ = false, ground_kept_ = false, supply_kept_ = false;
-  Cycle last_step_ = 0, tstep_cycles_ = kNever;
+  Cycle last_step_ = 0, tstep_cycles_ = kNever, stands_at_ = kNever;
   std::uint32_t stall_guard_ = 0x3FF;
   int since_measure_ = 0;
   double felt_nm_ = 0;  ///< since then
+  std::uint32_t noise_ = 1;
   bool diag_ = false;
 };
 

@@ -13,23 +13,49 @@
 namespace kinebus::emulator {
 namespace {
 
-constexpr Tmc2209Parameters kMotor{
-    .clock_hz = 12.4e6, .torque_nm_per_a = 0.27, .free_load = 371, .full_load = 34, .load_noise = 28};
 constexpr double kStop = -30'000;  // from where the carriage stood at power-up
 constexpr int kFast = 60'000, kAcceleration = 600'000, kBackOff = 8'000, kTravel = 90'000;
-constexpr int kThreshold = 75;
 constexpr int kFullStep = 256, kTurn = 1024;
 
-std::unique_ptr<Chip> board_with_other_motors(const ElfImage& image, const BoardOptions& options) {
+constexpr Tmc2209Parameters k2209Motor{
+    .clock_hz = 12.4e6, .torque_nm_per_a = 0.27, .free_load = 371, .full_load = 34, .load_noise = 28};
+constexpr SpiDriverParameters k5160Motor{
+    .clock_hz = 12.4e6, .torque_nm_per_a = 0.27, .free_load = 221, .full_load = 9, .load_noise = 17};
+constexpr SpiDriverParameters k2130Motor{.kind = SpiDriverKind::kTmc2130,
+                                         .sense_ohm = 0.11,
+                                         .bond_ohm = 0.02,
+                                         .clock_hz = 12.7e6,
+                                         .torque_nm_per_a = 0.27,
+                                         .free_load = 187,
+                                         .full_load = 14,
+                                         .load_noise = 13};
+
+std::unique_ptr<Chip> with_2209(const ElfImage& image, const BoardOptions& options) {
   auto board = std::make_unique<OctopusBoard>(image, options);
-  for (const int axis : {0, 1}) board->tmc(axis) = Tmc2209(kMotor);
+  board->tmc(0) = Tmc2209(k2209Motor);
+  return board;
+}
+std::unique_ptr<Chip> with_5160(const ElfImage& image, const BoardOptions& options) {
+  auto board = std::make_unique<OctopusBoard>(image, options);
+  board->plug(0, k5160Motor);
+  return board;
+}
+std::unique_ptr<Chip> with_2130(const ElfImage& image, const BoardOptions& options) {
+  auto board = std::make_unique<OctopusBoard>(image, options);
+  board->plug(0, k2130Motor);
   return board;
 }
 
-struct OctopusStall : testing::Test {
-  OctopusStall() : octopus({}, &board_with_other_motors) {
-    octopus.board.tmc(0).set_load(0.02);
-    octopus.board.tmc(0).set_end_stop(kStop, false);
+struct Socket {
+  const char* chip;
+  BoardMaker make;
+  int threshold;
+};
+
+struct OctopusStall : testing::TestWithParam<Socket> {
+  OctopusStall() : octopus({}, GetParam().make) {
+    octopus.board.rotor(0).set_load(0.02);
+    octopus.board.rotor(0).set_end_stop(kStop, false);
     octopus.bench.write(id_of(0), 0x2130, 1, 1, static_cast<int>(SwitchFunction::kHomeA));
     octopus.bench.write(id_of(0), 0x2132, 1, 2, 160);
     octopus.write(0, 0x6098, 0, 1, -4);
@@ -38,7 +64,7 @@ struct OctopusStall : testing::Test {
     octopus.write(0, 0x2140, 9, 4, kTravel);
     octopus.write(0, 0x2140, 10, 4, kBackOff);
     octopus.write(0, 0x607F, 0, 4, 400'000);
-    octopus.write(0, 0x2170, 3, 1, kThreshold);
+    octopus.write(0, 0x2170, 3, 1, GetParam().threshold);
     octopus.write(0, 0x2170, 4, 4, 30'000);
   }
   /// The statusword at its end.
@@ -77,7 +103,7 @@ struct OctopusStall : testing::Test {
   OneOctopus octopus;
 };
 
-TEST_F(OctopusStall, FindsItsStopAtTheSamePlaceFromWhereverItBegins) {
+TEST_P(OctopusStall, FindsItsStopAtTheSamePlaceFromWhereverItBegins) {
   octopus.board.wire_diag(0);
   std::vector<double> zeros;
   // Free, on the stop itself as a homing has just left it (-1), and anywhere.
@@ -102,7 +128,7 @@ TEST_F(OctopusStall, FindsItsStopAtTheSamePlaceFromWhereverItBegins) {
   EXPECT_LT(std::max(std::abs(least), std::abs(most)), kTurn / 2) << "no electrical turn is lost";
 }
 
-TEST_F(OctopusStall, AThresholdThatNeverSaysStopIsAnErrorAndNoPosition) {
+TEST_P(OctopusStall, AThresholdThatNeverSaysStopIsAnErrorAndNoPosition) {
   octopus.board.wire_diag(0);
   octopus.write(0, 0x2170, 3, 1, 0x01);
   const std::uint16_t word = home();
@@ -111,7 +137,7 @@ TEST_F(OctopusStall, AThresholdThatNeverSaysStopIsAnErrorAndNoPosition) {
   expect_stands();
 }
 
-TEST_F(OctopusStall, AThresholdThatSaysStopAtOnceIsAnErrorAndNoPosition) {
+TEST_P(OctopusStall, AThresholdThatSaysStopAtOnceIsAnErrorAndNoPosition) {
   octopus.board.wire_diag(0);
   octopus.write(0, 0x2170, 3, 1, 255);
   const std::uint16_t word = home();
@@ -122,14 +148,14 @@ TEST_F(OctopusStall, AThresholdThatSaysStopAtOnceIsAnErrorAndNoPosition) {
 }
 
 // A rail that is tight at one moment is no stop: what was met once is not met there again.
-TEST_F(OctopusStall, ALoadThatComesOnceIsNoStop) {
+TEST_P(OctopusStall, ALoadThatComesOnceIsNoStop) {
   octopus.board.wire_diag(0);
   octopus.enable(0, 6);
   octopus.write(0, 0x6040, 0, 2, 0x1F);
   for (int i = 0; i < 200 && octopus.board.true_counts(0) > kStop / 2; ++i) octopus.bench.run(2ms);
-  octopus.board.tmc(0).set_load(0.3);
+  octopus.board.rotor(0).set_load(0.37);
   octopus.bench.run(12ms);
-  octopus.board.tmc(0).set_load(0.02);
+  octopus.board.rotor(0).set_load(0.02);
   std::uint16_t word = 0;
   for (int i = 0; i < 300; ++i) {
     octopus.bench.run(10ms);
@@ -143,23 +169,29 @@ TEST_F(OctopusStall, ALoadThatComesOnceIsNoStop) {
 }
 
 // The stop's socket is open then, and reads as if it told a stop all the time.
-TEST_F(OctopusStall, WithoutTheJumperForDiagNothingMoves) {
+TEST_P(OctopusStall, WithoutTheJumperForDiagNothingMoves) {
   const std::uint16_t word = home();
   EXPECT_TRUE(refused(word));
   EXPECT_NE(word & cia402::status::kHomingWaits, 0);
   EXPECT_EQ(octopus.board.driver(0).steps(), 0);
 }
 
-TEST_F(OctopusStall, ADriverThatStandsAloneOrIsToldNoThresholdTellsNoLoadAndNothingMoves) {
+TEST_P(OctopusStall, ADriverThatStandsAloneOrIsToldNoThresholdTellsNoLoadAndNothingMoves) {
   octopus.board.wire_diag(0);
   octopus.write(0, 0x2170, 3, 1, 0);
   EXPECT_TRUE(refused(home()));
-  octopus.write(0, 0x2170, 3, 1, kThreshold);
+  octopus.write(0, 0x2170, 3, 1, GetParam().threshold);
   octopus.write(0, 0x2170, 1, 1, 0);
   octopus.bench.run(50ms);
   EXPECT_TRUE(refused(home()));
   EXPECT_EQ(octopus.board.driver(0).steps(), 0);
 }
+
+INSTANTIATE_TEST_SUITE_P(Each, OctopusStall,
+                         testing::Values(Socket{"tmc2209", &with_2209, 75},
+                                         Socket{"tmc5160", &with_5160, 150},
+                                         Socket{"tmc2130", &with_2130, 146}),
+                         [](const auto& socket) { return socket.param.chip; });
 
 }  // namespace
 }  // namespace kinebus::emulator

@@ -23,6 +23,19 @@ using namespace std::chrono_literals;
 /// Other motors than anybody has assumed, and no quiet ones.
 constexpr Tmc2209Parameters kMotor{
     .clock_hz = 11.8e6, .torque_nm_per_a = 0.33, .free_load = 352, .full_load = 40, .load_noise = 30};
+constexpr SpiDriverParameters kBySpi{
+    .clock_hz = 11.7e6, .torque_nm_per_a = 0.33, .free_load = 244, .full_load = 16, .load_noise = 15};
+
+std::unique_ptr<Chip> with_2209(const ElfImage& image, const BoardOptions& options) {
+  auto made = std::make_unique<OctopusBoard>(image, options);
+  for (const int axis : {0, 1}) made->tmc(axis) = Tmc2209(kMotor);
+  return made;
+}
+std::unique_ptr<Chip> with_5160(const ElfImage& image, const BoardOptions& options) {
+  auto made = std::make_unique<OctopusBoard>(image, options);
+  for (const int axis : {0, 1}) made->plug(axis, kBySpi);
+  return made;
+}
 
 MachineDescription printer(std::uint32_t threshold = 80) {
   auto machine = machine_of("cartesian_octopus");
@@ -44,13 +57,13 @@ MachineDescription printer(std::uint32_t threshold = 80) {
 /// have one instead of a switch.
 class OneBoard final : public EmulatedMachine {
  public:
-  OneBoard(const ElfImage& image, const std::vector<VirtualNodeOptions>& nodes)
-      : EmulatedMachine(image, {board_of(nodes)}), nodes_(nodes) {
+  OneBoard(const ElfImage& image, const std::vector<VirtualNodeOptions>& nodes, BoardMaker make)
+      : EmulatedMachine(image, {board_of(nodes, make)}), nodes_(nodes) {
     for (int axis = 0; axis < 2; ++axis) {
       const VirtualAxis& is = nodes[0].axes[static_cast<std::size_t>(axis)];
-      Tmc2209& chip = octopus().tmc(axis);
-      chip.set_load(0.03);
-      chip.set_end_stop(is.switch_counts - is.start_counts, is.active_above);
+      DrivenRotor& rotor = octopus().rotor(axis);
+      rotor.set_load(0.03);
+      rotor.set_end_stop(is.switch_counts - is.start_counts, is.active_above);
       octopus().wire_diag(axis);
     }
   }
@@ -66,14 +79,10 @@ class OneBoard final : public EmulatedMachine {
   }
 
  private:
-  static EmulatedNodeOptions board_of(const std::vector<VirtualNodeOptions>& nodes) {
+  static EmulatedNodeOptions board_of(const std::vector<VirtualNodeOptions>& nodes, BoardMaker make) {
     EmulatedNodeOptions options;
     options.node_id = nodes[0].node.node_id;
-    options.make = [](const ElfImage& image, const BoardOptions& board) -> std::unique_ptr<Chip> {
-      auto made = std::make_unique<OctopusBoard>(image, board);
-      for (const int axis : {0, 1}) made->tmc(axis) = Tmc2209(kMotor);
-      return made;
-    };
+    options.make = make;
     for (std::size_t n = 0; n < nodes.size(); ++n)
       for (std::size_t axis = 0; axis < kAxesPerNode && !nodes[n].heat; ++axis) {
         VirtualAxis& mine = options.board.axes[2 * n + axis];
@@ -87,7 +96,8 @@ class OneBoard final : public EmulatedMachine {
 };
 
 struct Bench {
-  explicit Bench(const MachineDescription& description, bool emulated = true) : machine(description) {
+  /// make: nullptr: the program's own virtual nodes.
+  explicit Bench(const MachineDescription& description, BoardMaker make = &with_2209) : machine(description) {
     static const ElfImage image = load_elf(KINEBUS_OCTOPUS_IMAGE);
     SimulationOptions options;
     options.sample_period = 20ms;
@@ -98,8 +108,8 @@ struct Bench {
     nodes[0].axes[1].start_counts = nodes[0].axes[1].switch_counts + 22'222;
     nodes[1].axes[0].start_counts = nodes[1].axes[0].switch_counts - 20'111;
     std::unique_ptr<NodeMachine> made;
-    if (emulated) {
-      auto board = std::make_unique<OneBoard>(image, nodes);
+    if (make != nullptr) {
+      auto board = std::make_unique<OneBoard>(image, nodes, make);
       octopus = &board->octopus();
       made = std::move(board);
     } else {
@@ -145,8 +155,7 @@ struct Bench {
   std::string alarms;
 };
 
-TEST(OctopusStopHoming, TheGatewayHomesAtStopsAndComesBackToThemAtTheSamePlace) {
-  Bench bench(printer());
+void expect_homes_at_its_stops(Bench& bench) {
   ASSERT_TRUE(bench.up()) << bench.alarms;
   const double full_step_mm = 0.2, turn_mm = 4 * full_step_mm;
   for (int time = 0; time < 2; ++time) {
@@ -167,6 +176,24 @@ TEST(OctopusStopHoming, TheGatewayHomesAtStopsAndComesBackToThemAtTheSamePlace) 
   EXPECT_NEAR(bench.joint(0), -20, turn_mm / 2);
   EXPECT_NEAR(bench.joint(1), -30, turn_mm / 2);
   EXPECT_EQ(bench.alarms, "");
+}
+
+TEST(OctopusStopHoming, TheGatewayHomesAtStopsAndComesBackToThemAtTheSamePlace) {
+  Bench bench(printer());
+  expect_homes_at_its_stops(bench);
+}
+
+TEST(OctopusStopHoming, WithDriversBySpiToo) {
+  MachineDescription machine = printer(150);
+  for (const std::size_t joint : {0u, 1u})
+    machine.joints[joint].driver = DriverDescription{.sense_resistor_mohm = 75};
+  Bench bench(machine, &with_5160);
+  expect_homes_at_its_stops(bench);
+  for (const int axis : {0, 1}) {
+    EXPECT_EQ(bench.octopus->spi_driver(axis).bad_datagrams(), 0u);
+    EXPECT_NEAR(bench.octopus->spi_driver(axis).run_amperes(), bench.machine.joints[0].run_current_ma * 1e-3,
+                0.03);
+  }
 }
 
 TEST(OctopusStopHoming, AThresholdThatNeverTellsEndsInWordsAndIsNoPosition) {
@@ -191,7 +218,7 @@ TEST(OctopusStopHoming, AThresholdThatTellsAtOnceEndsInWordsAndIsNoPosition) {
 
 // Nodes without such drivers, as the program's own virtual ones are, say so before anything moves.
 TEST(OctopusStopHoming, NodesWithoutSuchDriversAreRefusedAtBringUp) {
-  Bench bench(printer(), false);
+  Bench bench(printer(), nullptr);
   EXPECT_FALSE(bench.up());
   EXPECT_NE(bench.alarms.find("X is to home by its driver's load, and node 1 has no driver there"),
             std::string::npos)
