@@ -55,12 +55,12 @@ void SocketCanBus::send(LocalTime now, const CanFrame& frame) {
 std::optional<BusPort::Received> SocketCanBus::receive(LocalTime now) {
   if (looks_at_ && now >= *looks_at_) {
     looks_at_ = now + kLook;
+    // Whatever comes meanwhile: it may have lain in the socket when the interface went.
     if (socket_.rejoin()) looks_at_.reset();
   }
   while (auto got = socket_.receive()) {
     switch (got->kind) {
       case SocketCan::Kind::kFrame:
-        looks_at_.reset();  // it is the same one, and up again
         return Received{Received::Kind::kFrame, got->when, got->frame, {}};
       case SocketCan::Kind::kOwn:
         in_flight_ = std::max(0, in_flight_ - 1);
