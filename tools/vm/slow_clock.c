@@ -1,11 +1,14 @@
 // Preloaded into a program, its clocks go $KINEBUS_SLOW times slower than this machine's: QEMU's guest and
 // what runs beside it have more of the processor for each second of theirs (tools/vm/run --slow). What runs
-// beside may hold them for both while it is behind, through the file $KINEBUS_SLOW_CLOCK that both map.
+// beside may hold them for both while it is behind, through the file $KINEBUS_SLOW_CLOCK that both map, and
+// sees there how far the guest has come.
 #define _GNU_SOURCE
 #include <fcntl.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <time.h>
 #include <unistd.h>
@@ -15,6 +18,7 @@ enum { kSecond = 1000000000 };
 struct Common {
   _Atomic long long until_ns;  // CLOCK_MONOTONIC goes no farther; 0: it does
   _Atomic long long stood_ns;  // for so long all clocks have stood
+  _Atomic long long guest_ns;  // the guest has looked at CLOCK_MONOTONIC then; 0: never
 };
 static struct Common alone;
 static struct Common* common = &alone;
@@ -63,12 +67,27 @@ void kinebus_hold_clock(long long until_ns) {
   atomic_store(&common->until_ns, until_ns == 0 || until_ns > here - stood ? until_ns : here - stood);
 }
 
+// For one of the programs, found by its name: the guest's processor has run at this of CLOCK_MONOTONIC; 0:
+// there is none.
+long long kinebus_guest_seen(void) {
+  return atomic_load(&common->guest_ns);
+}
+
+// The thread of QEMU that is the guest's processor (-name debug-threads=on).
+static int is_guest(void) {
+  static _Thread_local int known = -1;
+  char name[16] = "";
+  if (known < 0 && prctl(PR_GET_NAME, name) == 0) known = strncmp(name, "CPU ", 4) == 0;
+  return known == 1;
+}
+
 int clock_gettime(clockid_t clock, struct timespec* at) {
   const int counts_time = clock == CLOCK_MONOTONIC || clock == CLOCK_MONOTONIC_RAW || clock == CLOCK_REALTIME;
   if (!counts_time) return (int)syscall(SYS_clock_gettime, clock, at);
   const struct Held by = held();
   const long long asked = slowed(clock);
   const long long ns = asked - stood_at(clock == CLOCK_MONOTONIC ? asked : slowed(CLOCK_MONOTONIC), by);
+  if (clock == CLOCK_MONOTONIC && is_guest()) atomic_store(&common->guest_ns, ns);
   at->tv_sec = (time_t)(ns / kSecond);
   at->tv_nsec = (long)(ns % kSecond);
   return 0;
