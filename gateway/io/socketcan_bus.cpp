@@ -1,8 +1,11 @@
 #include "gateway/io/socketcan_bus.hpp"
 
 #include <linux/can/error.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
+
+#include "protocol/host/can_interface.hpp"
 
 namespace kinebus {
 namespace {
@@ -23,7 +26,14 @@ Result<std::unique_ptr<SocketCanBus>, std::string> SocketCanBus::open(const std:
   auto bus = std::make_unique<SocketCanBus>();
   if (std::string error = bus->socket_.open(interface, true); !error.empty())
     return Error<std::string>(error);
+  bus->interface_ = interface;
+  bus->tell_what_is_wrong();
   return bus;
+}
+
+void SocketCanBus::tell_what_is_wrong() const {
+  if (const auto interface = ask_kernel(interface_))
+    for (const std::string& words : advice(interface_, *interface)) spdlog::warn("{}", words);
 }
 
 LocalTime SocketCanBus::next_deadline() const {
@@ -56,7 +66,10 @@ std::optional<BusPort::Received> SocketCanBus::receive(LocalTime now) {
   if (looks_at_ && now >= *looks_at_) {
     looks_at_ = now + kLook;
     // Whatever comes meanwhile: it may have lain in the socket when the interface went.
-    if (socket_.rejoin()) looks_at_.reset();
+    if (socket_.rejoin()) {
+      looks_at_.reset();
+      tell_what_is_wrong();  // it comes without bit rate, and down
+    }
   }
   while (auto got = socket_.receive()) {
     switch (got->kind) {
