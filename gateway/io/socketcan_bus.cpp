@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "protocol/host/can_interface.hpp"
 
@@ -74,12 +75,16 @@ std::optional<BusPort::Received> SocketCanBus::receive(LocalTime now) {
   while (auto got = socket_.receive()) {
     switch (got->kind) {
       case SocketCan::Kind::kFrame:
+        down_told_ = false;
         return Received{Received::Kind::kFrame, got->when, got->frame, {}};
       case SocketCan::Kind::kOwn:
+        down_told_ = false;
         in_flight_ = std::max(0, in_flight_ - 1);
         return Received{Received::Kind::kSent, got->when, got->frame, {}};
       case SocketCan::Kind::kDown:
         looks_at_ = now + kLook;
+        // One that is taken away goes down first: the kernel says both.
+        if (std::exchange(down_told_, true)) break;
         return Received{Received::Kind::kFailure, got->when, {}, "the CAN interface went down"};
       case SocketCan::Kind::kBusError:
         if ((got->error & CAN_ERR_BUSOFF) != 0)

@@ -31,6 +31,7 @@ class SocketCanBus : public BusPort {
   LocalTime full_until_{0};  ///< the kernel's queue was full
   std::optional<CanFrame> refused_;
   std::optional<LocalTime> looks_at_;  ///< it went down: whether another one has come in its place
+  bool down_told_ = false;             ///< and nothing has come since
 };
 
 }  // namespace kinebus
