@@ -18,8 +18,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr BusTime kBehind = 1ms;
-constexpr BusTime kPiece = 1ms;  // of the boards' time, between looks at the interface
-constexpr int kMailboxes = 4;    // other participants of the bus may have several frames waiting
+constexpr BusTime kPiece = 250us;  // of the boards' time, between looks at the interface
+constexpr int kMailboxes = 4;      // other participants of the bus may have several frames waiting
 
 std::atomic<bool> ended{false};
 void on_end(int) {
