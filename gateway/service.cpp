@@ -23,7 +23,6 @@
 #include "gateway/io/web_folder.hpp"
 #include "gateway/sessions/http/api.hpp"
 #include "protocol/bytes.hpp"
-#include "protocol/host/can_interface.hpp"
 #include "protocol/host/realtime.hpp"
 #include "protocol/host/socketcan.hpp"
 #include "protocol/joblink/sha256.hpp"
@@ -56,20 +55,13 @@ MachineDescription read_machine(const std::string& path) {
   return *machine;
 }
 
-std::unique_ptr<BusPort> open_interface(const std::string& name) {
-  auto bus = must(SocketCanBus::open(name));
-  if (const auto interface = ask_kernel(name))
-    for (const std::string& words : advice(name, *interface)) spdlog::warn("{}", words);
-  return bus;
-}
-
 std::unique_ptr<BusPort> open_bus(const std::string& name, const MachineDescription& machine,
                                   const std::string& log, LocalTime now) {
   std::unique_ptr<BusPort> bus;
   if (name == kInproc)
     bus = std::make_unique<InprocBus>(machine, now);
   else
-    bus = open_interface(name);
+    bus = must(SocketCanBus::open(name));
   if (!log.empty()) return must(LoggedBus::open(std::move(bus), log), "bus log ");
   return bus;
 }

@@ -1,8 +1,12 @@
 #include "gateway/io/socketcan_bus.hpp"
 
 #include <linux/can/error.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <utility>
+
+#include "protocol/host/can_interface.hpp"
 
 namespace kinebus {
 namespace {
@@ -23,7 +27,14 @@ Result<std::unique_ptr<SocketCanBus>, std::string> SocketCanBus::open(const std:
   auto bus = std::make_unique<SocketCanBus>();
   if (std::string error = bus->socket_.open(interface, true); !error.empty())
     return Error<std::string>(error);
+  bus->interface_ = interface;
+  bus->tell_what_is_wrong();
   return bus;
+}
+
+void SocketCanBus::tell_what_is_wrong() const {
+  if (const auto interface = ask_kernel(interface_))
+    for (const std::string& words : advice(interface_, *interface)) spdlog::warn("{}", words);
 }
 
 LocalTime SocketCanBus::next_deadline() const {
@@ -55,18 +66,25 @@ void SocketCanBus::send(LocalTime now, const CanFrame& frame) {
 std::optional<BusPort::Received> SocketCanBus::receive(LocalTime now) {
   if (looks_at_ && now >= *looks_at_) {
     looks_at_ = now + kLook;
-    if (socket_.rejoin()) looks_at_.reset();
+    // Whatever comes meanwhile: it may have lain in the socket when the interface went.
+    if (socket_.rejoin()) {
+      looks_at_.reset();
+      tell_what_is_wrong();  // it comes without bit rate, and down
+    }
   }
   while (auto got = socket_.receive()) {
     switch (got->kind) {
       case SocketCan::Kind::kFrame:
-        looks_at_.reset();  // it is the same one, and up again
+        down_told_ = false;
         return Received{Received::Kind::kFrame, got->when, got->frame, {}};
       case SocketCan::Kind::kOwn:
+        down_told_ = false;
         in_flight_ = std::max(0, in_flight_ - 1);
         return Received{Received::Kind::kSent, got->when, got->frame, {}};
       case SocketCan::Kind::kDown:
         looks_at_ = now + kLook;
+        // One that is taken away goes down first: the kernel says both.
+        if (std::exchange(down_told_, true)) break;
         return Received{Received::Kind::kFailure, got->when, {}, "the CAN interface went down"};
       case SocketCan::Kind::kBusError:
         if ((got->error & CAN_ERR_BUSOFF) != 0)

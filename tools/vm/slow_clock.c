@@ -1,11 +1,14 @@
 // Preloaded into a program, its clocks go $KINEBUS_SLOW times slower than this machine's: QEMU's guest and
 // what runs beside it have more of the processor for each second of theirs (tools/vm/run --slow). What runs
-// beside may hold them for both while it is behind, through the file $KINEBUS_SLOW_CLOCK that both map.
+// beside may hold them for both while it is behind, through the file $KINEBUS_SLOW_CLOCK that both map, and
+// sees there how far the guest has come.
 #define _GNU_SOURCE
 #include <fcntl.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <time.h>
 #include <unistd.h>
@@ -15,6 +18,8 @@ enum { kSecond = 1000000000 };
 struct Common {
   _Atomic long long until_ns;  // CLOCK_MONOTONIC goes no farther; 0: it does
   _Atomic long long stood_ns;  // for so long all clocks have stood
+  _Atomic long long guest_ns;  // the guest's processor has looked at CLOCK_MONOTONIC then; 0: never
+  _Atomic long long ports_ns;  // the thread of QEMU that serves the guest's devices and timers has
 };
 static struct Common alone;
 static struct Common* common = &alone;
@@ -63,12 +68,33 @@ void kinebus_hold_clock(long long until_ns) {
   atomic_store(&common->until_ns, until_ns == 0 || until_ns > here - stood ? until_ns : here - stood);
 }
 
+// For one of the programs, found by its name: the guest has run at this of CLOCK_MONOTONIC; 0: there is none.
+long long kinebus_guest_seen(void) {
+  const long long guest = atomic_load(&common->guest_ns), ports = atomic_load(&common->ports_ns);
+  return guest < ports ? guest : ports;
+}
+
+// Notes that this thread has run, when it is one of QEMU's (-name debug-threads=on).
+static void note_seen(long long ns) {
+  static _Thread_local _Atomic long long* mine;
+  static _Thread_local int known;
+  if (!known) {
+    char name[16] = "";
+    known = 1;
+    prctl(PR_GET_NAME, name);
+    if (strncmp(name, "CPU ", 4) == 0) mine = &common->guest_ns;
+    if (strncmp(name, "qemu-system", 11) == 0 && getpid() == gettid()) mine = &common->ports_ns;
+  }
+  if (mine != NULL) atomic_store(mine, ns);
+}
+
 int clock_gettime(clockid_t clock, struct timespec* at) {
   const int counts_time = clock == CLOCK_MONOTONIC || clock == CLOCK_MONOTONIC_RAW || clock == CLOCK_REALTIME;
   if (!counts_time) return (int)syscall(SYS_clock_gettime, clock, at);
   const struct Held by = held();
   const long long asked = slowed(clock);
   const long long ns = asked - stood_at(clock == CLOCK_MONOTONIC ? asked : slowed(CLOCK_MONOTONIC), by);
+  if (clock == CLOCK_MONOTONIC) note_seen(ns);
   at->tv_sec = (time_t)(ns / kSecond);
   at->tv_nsec = (long)(ns % kSecond);
   return 0;

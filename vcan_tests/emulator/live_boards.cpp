@@ -9,6 +9,7 @@
 #include <deque>
 #include <optional>
 
+#include "vcan_tests/emulator/lab_clock.hpp"
 #include "vcan_tests/emulator/workbench.hpp"
 
 namespace kinebus::emulator {
@@ -17,8 +18,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr BusTime kBehind = 1ms;
-constexpr BusTime kPiece = 1ms;  // of the boards' time, between looks at the interface
-constexpr int kMailboxes = 4;    // other participants of the bus may have several frames waiting
+constexpr BusTime kPiece = 250us;  // of the boards' time, between looks at the interface
+constexpr int kMailboxes = 4;      // other participants of the bus may have several frames waiting
 
 std::atomic<bool> ended{false};
 void on_end(int) {
@@ -38,6 +39,8 @@ std::string run_live(const ElfImage& image, const std::vector<EmulatedNodeOption
   BusTime slipped{0}, now{0}, goal{0};
   std::deque<std::pair<BusTime, CanFrame>> incoming;
   std::deque<CanFrame> outgoing;
+  const LabClock clock;
+  bool spoken_to = false;  // before, a guest starts up and measures its clocks
   const auto goes_on = [&] { return !ended && !bus.closed(); };
   const auto has_power = [&] {
     return options.power_file.empty() || ::access(options.power_file.c_str(), F_OK) == 0;
@@ -47,6 +50,7 @@ std::string run_live(const ElfImage& image, const std::vector<EmulatedNodeOption
     std::fprintf(stderr, "kinebus-emulate: power off\n");
     incoming.clear();
     outgoing.clear();
+    clock.go_on();
     const LocalTime since = monotonic_now();
     while (goes_on() && !has_power()) {
       pollfd wait = bus.waits_for(true);
@@ -83,12 +87,17 @@ std::string run_live(const ElfImage& image, const std::vector<EmulatedNodeOption
       for (int node = 0; node < machine.node_count(); ++node) machine.power_cycle(node);
       std::fprintf(stderr, "kinebus-emulate: power on\n");
     }
+    if (spoken_to) clock.wait_at(began + slipped + now + kBehind + kPiece);
+    const bool waits = spoken_to && clock.guest_is_behind(began + slipped + now);
     pollfd wait = bus.waits_for(true);
-    poll(&wait, 1, now < goal ? 0 : 1);
+    poll(&wait, 1, now < goal && !waits ? 0 : 1);
     const BusTime behind = monotonic_now() - began - slipped - kBehind - now;
     if (behind > options.most_behind + kPiece) slipped += behind - kPiece;
-    while (const auto got = bus.receive()) incoming.emplace_back(got->when - began - slipped, got->frame);
-    goal = monotonic_now() - began - slipped - kBehind;
+    while (const auto got = bus.receive()) {
+      incoming.emplace_back(got->when - began - slipped, got->frame);
+      spoken_to = true;
+    }
+    goal = waits ? now : monotonic_now() - began - slipped - kBehind;
     run_to(std::min(goal, now + kPiece));
     while (!outgoing.empty() && bus.send(outgoing.front())) outgoing.pop_front();
     bus.flush();

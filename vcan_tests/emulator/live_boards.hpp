@@ -21,8 +21,8 @@ struct LiveOptions {
 
 /// Joins the boards to the bus until SIGINT, SIGTERM or the other end of `bus` is gone. Empty: ended well.
 /// Otherwise what is wrong. The boards run a millisecond behind the wall clock, so that a frame is received
-/// at the cycle that its time stamp names. By how much a slow computer made the boards' time slip is told at
-/// the end.
+/// at the cycle that its time stamp names; a lab's clock (lab_clock.hpp) waits for them. By how much a slow
+/// computer made the boards' time slip is told at the end.
 std::string run_live(const ElfImage& image, const std::vector<EmulatedNodeOptions>& nodes, CanPort& bus,
                      const LiveOptions& options);
 

@@ -1,6 +1,5 @@
 #include "vcan_tests/emulator/live_usb.hpp"
 
-#include <dlfcn.h>
 #include <poll.h>
 
 #include <atomic>
@@ -9,6 +8,7 @@
 #include <optional>
 
 #include "protocol/host/socketcan.hpp"
+#include "vcan_tests/emulator/lab_clock.hpp"
 #include "vcan_tests/emulator/usb_cable.hpp"
 #include "vcan_tests/emulator/workbench.hpp"
 
@@ -17,28 +17,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Of the wall clock, or of the board: the other waits.
-constexpr BusTime kAhead = 2ms;
+// Of the wall clock, or of the board: the other waits. The computer takes the board's clock, by its time
+// stamps, for one that goes as evenly as a crystal.
+constexpr BusTime kAhead = 500us;
 
 std::atomic<bool> ended{false};
 void on_end(int) {
   ended = true;
 }
-
-/// Where both ends' clock is a lab's (tools/vm/run --slow), it waits for the board.
-class LabClock {
- public:
-  LabClock() : hold_(reinterpret_cast<void (*)(long long)>(::dlsym(RTLD_DEFAULT, "kinebus_hold_clock"))) {}
-  ~LabClock() { until(LocalTime{0}); }
-  LabClock(const LabClock&) = delete;
-  LabClock& operator=(const LabClock&) = delete;
-  void until(LocalTime at) const {
-    if (hold_ != nullptr) hold_(at.count());
-  }
-
- private:
-  void (*hold_)(long long);
-};
 
 /// Waits for the computer, at most a millisecond.
 void wait_for(const UsbLine& line) {
@@ -61,11 +47,13 @@ std::string run_usb(const ElfImage& image, const std::vector<EmulatedNodeOptions
   const LocalTime began = monotonic_now();
   const LabClock clock;
   BusTime now{0}, slipped{0};
+  bool joined = false;
   while (!ended && !line.closed()) {
-    // Without a cable nobody minds a late board; and a computer that starts up measures its clocks.
-    clock.until(line.plugged() ? began + slipped + now + kAhead : LocalTime{0});
+    joined = joined || line.plugged();  // before, a computer that starts up measures its clocks
+    if (joined) clock.wait_at(began + slipped + now + kAhead);
     BusTime wall = monotonic_now() - began - slipped;
-    if (now > wall + kAhead / 2) {
+    const bool waits = joined && clock.guest_is_behind(began + slipped + now);
+    if (waits || now > wall + kAhead / 2) {
       wait_for(line);
       continue;
     }
@@ -79,7 +67,9 @@ std::string run_usb(const ElfImage& image, const std::vector<EmulatedNodeOptions
     while (machine.receive()) {
     }
     cable.serve(now, wall);
-    if (bench) bench->look(now);
+    if (!bench) continue;
+    bench->look_at_cable(now, line.plugged());
+    bench->look(now);
   }
   std::fprintf(stderr, "kinebus-emulate: %.1f s of board time, slipped %.3f s behind the wall clock\n",
                to_seconds(now), to_seconds(slipped));

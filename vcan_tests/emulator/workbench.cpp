@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -24,6 +25,13 @@ constexpr double kMove_counts = 100, kWarm_k = 0.25;
 constexpr int kInputs = 7;
 constexpr int kLongestPress_ms = 10'000;
 
+/// nullptr: it heats nothing.
+HeatedPlaces* heated_of(Chip& chip) {
+  if (auto* const octopus = dynamic_cast<OctopusBoard*>(&chip)) return &octopus->heated();
+  if (auto* const ebb = dynamic_cast<EbbBoard*>(&chip)) return &ebb->heated();
+  return nullptr;
+}
+
 }  // namespace
 
 Workbench::Workbench(EmulatedMachine& machine, const std::string& folder)
@@ -40,6 +48,12 @@ void Workbench::look(BusTime now) {
   for (int board = 0; board < machine_.node_count(); ++board) look_at(now, board);
   do_what_is_asked(now);
   static_cast<void>(std::fflush(seen_.get()));
+}
+
+void Workbench::look_at_cable(BusTime now, bool plugged) {
+  if (plugged == plugged_) return;
+  plugged_ = plugged;
+  say(now, plugged ? "cable in" : "cable out");
 }
 
 void Workbench::look_at(BusTime now, int board) {
@@ -62,12 +76,9 @@ void Workbench::look_at(BusTime now, int board) {
     last = on ? 1 : 0;
     say(now, fmt::format("fan {} {} {}", board, fan, on ? "on" : "off"));
   }
-  if (octopus != nullptr) {
-    note(now, board, "hotend", octopus->heated().hot_end().block());
-    note(now, board, "bed", octopus->heated().bed().block());
-  } else if (ebb != nullptr) {
-    note(now, board, "hotend", ebb->heated().hot_end().block());
-  }
+  HeatedPlaces* const heated = heated_of(chip);
+  if (heated != nullptr) note(now, board, "hotend", heated->hot_end().block());
+  if (octopus != nullptr) note(now, board, "bed", heated->bed().block());
 }
 
 void Workbench::note(BusTime now, int board, const char* what, double value) {
@@ -80,9 +91,24 @@ void Workbench::note(BusTime now, int board, const char* what, double value) {
 void Workbench::do_what_is_asked(BusTime now) {
   std::ifstream in(asked_);
   if (!in) return;
-  for (std::string line; std::getline(in, line);) press(now, line);
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with("heat "))
+      change_heat(now, line);
+    else
+      press(now, line);
   std::error_code ignored;
   std::filesystem::remove(asked_, ignored);
+}
+
+void Workbench::change_heat(BusTime now, const std::string& line) {
+  int board = -1, end = 0;
+  const bool understood = std::sscanf(line.c_str(), "heat %d %n", &board, &end) == 1 && board >= 0 &&
+                          board < machine_.node_count();
+  HeatedPlaces* const heated = understood ? heated_of(machine_.chip(board)) : nullptr;
+  if (heated == nullptr)
+    return say(now, fmt::format("not understood: {}; expected heat BOARD COMMAND", line.substr(0, 60)));
+  const std::string trouble = heated->plant().command(line.substr(static_cast<std::size_t>(end)));
+  say(now, trouble.empty() ? line : "not understood: " + trouble);
 }
 
 void Workbench::press(BusTime now, const std::string& line) {
