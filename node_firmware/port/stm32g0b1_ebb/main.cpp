@@ -11,9 +11,9 @@
 #include "node_firmware/port/stm32g0b1_ebb/can_port.hpp"
 #include "node_firmware/port/stm32g0b1_ebb/clock_tree.hpp"
 #include "node_firmware/port/stm32g0b1_ebb/flash_port.hpp"
+#include "node_firmware/port/stm32g0b1_ebb/motors.hpp"
 #include "node_firmware/port/stm32g0b1_ebb/pins.hpp"
 #include "node_firmware/port/stm32g0b1_ebb/reset_port.hpp"
-#include "node_firmware/port/stm32g0b1_ebb/step_stage.hpp"
 #include "node_firmware/port/stm32g0b1_ebb/switch_port.hpp"
 #include "node_firmware/port/stm32g0b1_ebb/watchdog_port.hpp"
 #include "protocol/canopen/boards/stm32g0b1_ebb.hpp"
@@ -32,8 +32,6 @@ static_assert(1'000'000'000 / kLocalHz == kPlanCount.count());
 constinit CanPort can_port;
 constinit CanTap axis_tap{can_port, 0};
 constinit SwitchPort switch_port;
-constinit StepMotors<StepPort>::Plans plans;
-constinit StepMotors<StepPort> motors{plans};
 constinit ParameterFlash<ebb::kParameterPages> parameter_flash;
 constinit PageStore parameters{parameter_flash};
 constinit WatchdogPort dog;
@@ -50,9 +48,6 @@ constexpr NodeIdentity identity() {
 }  // namespace
 
 extern "C" {
-void isr_control() {
-  motors.on_control();
-}
 void isr_can_receive() {
   can_port.on_receive(local_counts());
 }
