@@ -5,16 +5,18 @@
 #include <array>
 #include <cstdint>
 
+#include "node_firmware/board/local_clock.hpp"
 #include "node_firmware/core/node.hpp"
-#include "node_firmware/step/driver_socket.hpp"
+#include "node_firmware/step/stepper_driver.hpp"
 #include "protocol/canopen/alarm_codes.hpp"
 
 namespace kinebus {
 
 /// `socket`: of one axis.
-inline std::uint16_t driver_fault(const step::DriverSocket& socket) {
+template <typename Socket>
+std::uint16_t driver_fault(const Socket& socket) {
   namespace finding = step::finding;
-  const step::StepperDriver& chip = socket.chip();
+  const auto& chip = socket.chip();
   const std::uint8_t found = chip.findings();
   if (socket.state() == step::DriverState::kStandsAlone) return emcy::kNoError;
   if (chip.lost_settings()) return emcy::kDriverReset;
@@ -26,6 +28,15 @@ inline std::uint16_t driver_fault(const step::DriverSocket& socket) {
   return chip.open_load() ? emcy::kPhaseOpen : emcy::kNoError;
 }
 
+/// Before the bus hears of the board: the drivers get their settings, or are found silent. `Counter`: local
+/// time.
+template <LocalCounter Counter, typename Drivers>
+void settle_drivers(Drivers& drivers) {
+  LocalClock<Counter> clock;
+  constexpr LocalTime kLongest = std::chrono::seconds{1};
+  while (!drivers.settled() && clock.now() < kLongest) drivers.serve(clock.now());
+}
+
 /// Axes of which each has such a driver. `Drivers`: step::DriverChain.
 template <typename Drivers>
 class DriverSupervision {
@@ -34,7 +45,7 @@ class DriverSupervision {
 
   /// The axis must not have power, and why; 0: it may.
   std::uint16_t refusal(std::size_t place) const {
-    const step::DriverSocket& driver = drivers_.driver(place);
+    const auto& driver = drivers_.driver(place);
     if (driver.state() == step::DriverState::kSilent) return emcy::kDriverSilent;
     const std::uint16_t fault = driver_fault(driver);
     return fault != emcy::kNoError || driver.usable() ? fault : emcy::kDriverSilent;
@@ -44,13 +55,13 @@ class DriverSupervision {
   std::uint16_t fault(std::size_t place) const { return driver_fault(drivers_.driver(place)); }
   /// Without power. What a driver has kept of its past is of no account when the axis is switched on.
   void forget(std::size_t place) {
-    step::DriverSocket& driver = drivers_.driver(place);
+    auto& driver = drivers_.driver(place);
     if (driver.usable()) driver.acknowledge();
   }
 
   /// Now and then. True: the node was told something.
   bool serve(Node& node, LocalTime now, std::size_t place, int axis, bool powered) {
-    step::DriverSocket& driver = drivers_.driver(place);
+    auto& driver = drivers_.driver(place);
     driver.set_spoken_to(node.axis_parameter(slot_of_axes(object::kDriverKind), axis) != 0);
     driver.set(settings_of(node, axis));
     const std::int32_t speed = node.axis(axis).velocity(now);
@@ -83,13 +94,14 @@ class DriverSupervision {
   }
   // Power is kept, all stop on the path.
   bool serve_troubles(Node& node, LocalTime now, std::size_t place, int axis, bool powered) {
-    const step::DriverSocket& driver = drivers_.driver(place);
+    const auto& driver = drivers_.driver(place);
     std::uint8_t present = 0;
     if (powered && (driver.chip().findings() & step::finding::kPreWarning) != 0) present |= kHot;
     if (powered && driver.state() == step::DriverState::kSilent) present |= kSilent;
     std::uint8_t& was = troubles_[place];
     if (present == was) return false;
-    const std::uint8_t other = troubles_[place ^ 1];
+    const std::size_t neighbour = place ^ 1;
+    const std::uint8_t other = neighbour < troubles_.size() ? troubles_[neighbour] : std::uint8_t{0};
     for (std::size_t i = 0; i < kCodes.size(); ++i) {
       const auto bit = static_cast<std::uint8_t>(1u << i);
       if ((present & ~was & bit) != 0) node.on_axis_trouble(now, axis, kCodes[i]);

@@ -21,15 +21,16 @@ concept DriverWire = requires(T& wire, std::size_t driver, const Exchange& excha
   { wire.take(heard) } -> std::same_as<std::size_t>;
 };
 
-template <DriverWire Wire, std::size_t kCount>
+/// `Socket`: what is at the end of each wire.
+template <DriverWire Wire, std::size_t kCount, typename Socket = DriverSocket>
 class DriverChain {
  public:
   static constexpr std::size_t kDrivers = kCount;
 
   explicit constexpr DriverChain(Wire& wire) : wire_(wire) {}
 
-  DriverSocket& driver(std::size_t i) { return drivers_[i]; }
-  const DriverSocket& driver(std::size_t i) const { return drivers_[i]; }
+  Socket& driver(std::size_t i) { return drivers_[i]; }
+  const Socket& driver(std::size_t i) const { return drivers_[i]; }
 
   /// Main loop, each pass.
   void serve(LocalTime now) {
@@ -43,7 +44,7 @@ class DriverChain {
   }
   /// Each has its settings, or does not answer.
   bool settled() const {
-    for (const DriverSocket& d : drivers_)
+    for (const Socket& d : drivers_)
       if (d.state() == DriverState::kUnasked) return false;
     return true;
   }
@@ -75,7 +76,7 @@ class DriverChain {
   }
 
   Wire& wire_;
-  std::array<DriverSocket, kCount> drivers_{};
+  std::array<Socket, kCount> drivers_{};
   std::optional<Exchange> said_;
   std::size_t at_ = kCount - 1, talks_to_ = 0;
   LocalTime begun_{0};

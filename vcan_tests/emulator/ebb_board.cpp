@@ -21,6 +21,8 @@ EbbBoard::EbbBoard(const ElfImage& image, const BoardOptions& options, std::uint
       spi2_(cpu_.nvic(), 26, kClockCycles, accelerometer_, true, kClockParts) {
   map(0x40003800, 0x400, spi2_, kSpi2Clock);
   for (GpioPort& port : ports_) port.on_change = [this](Cycle at) { on_pins(at); };
+  usart2_.on_output = [this](Cycle at) { look_at_wire(at); };
+  driver_.on_step = [this](bool direction, Cycle at) { tmc_.on_step(direction, at); };
   // A divider to 3.3 V.
   adc_.sample = [this](int channel, Cycle) {
     return channel == ebb::kThermistor ? heated_.hot_end().voltage() : 0;
@@ -54,7 +56,7 @@ ServoPulses EbbBoard::servo() {
 }
 
 double EbbBoard::true_counts(int axis) const {
-  return axis == 0 ? static_cast<double>(driver_.steps()) * kCountsPerStep + start_counts(0) : 0;
+  return axis == 0 ? tmc_.rotor_counts() + start_counts(0) : 0;
 }
 
 void EbbBoard::set_input(int input, bool level) {
@@ -74,6 +76,24 @@ bool EbbBoard::anything_on() const {
 void EbbBoard::advance_devices(Cycle now) {
   spi2_.advance(now);
   heated_.advance(now);
+  if (tmc_.next_event() <= now) tmc_.advance(now);
+  look_at_wire(now);
+}
+
+// Open drain at both ends, and the chip's own resistor.
+void EbbBoard::look_at_wire(Cycle now) {
+  constexpr int kUsart2Function = 1;
+  const stm32::OutputPin pin = ebb::kDriverWire;
+  GpioPort& port = ports_[static_cast<std::size_t>(pin.port)];
+  const bool usart = port.mode(pin.number) == GpioPort::Mode::kAlternate &&
+                     port.alternate(pin.number) == kUsart2Function && usart2_.one_wire_at_rx();
+  const bool output = port.mode(pin.number) == GpioPort::Mode::kOutput;
+  const bool low = (usart && usart2_.drives_low()) || (output && !port.output_high(pin.number));
+  const bool forced = !low && !port.open_drain(pin.number) && ((usart && usart2_.drives()) || output);
+  if (!wire_.look(low || tmc_.pulls_low(), forced, port.pulled_up(pin.number), now)) return;
+  port.drive(pin.number, wire_.high());
+  if (usart) usart2_.on_wire(wire_.high(), now);
+  tmc_.on_wire(wire_.high(), now);
 }
 
 void EbbBoard::reset_devices(Cycle now) {
@@ -93,6 +113,8 @@ void EbbBoard::on_pins(Cycle now) {
       select.mode(ebb::kAccelerometer.number) == GpioPort::Mode::kOutput && !high(ebb::kAccelerometer), now);
   // A MOSFET with a pull-down: a pin that nobody drives is off.
   heated_.set_power(high(ebb::kHeater), false, now);
+  tmc_.on_enable(enabled);
+  look_at_wire(now);
   driver_.on_pins(high(ebb::kStep), high(ebb::kDirection), enabled, now);
 }
 

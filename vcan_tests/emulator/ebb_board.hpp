@@ -1,5 +1,5 @@
 #pragma once
-// The BTT EBB36 or EBB42 v1.2, emulated: one stepper driver that counts steps, a hot end, and switches, wired
+// The BTT EBB36 or EBB42 v1.2, emulated: one TMC2209, whose steps are counted, a hot end, and switches, wired
 // as node_firmware/port/stm32g0b1_ebb/board.hpp says.
 
 #include <algorithm>
@@ -10,6 +10,8 @@
 #include "vcan_tests/emulator/peripherals/spi.hpp"
 #include "vcan_tests/emulator/physics/adxl345.hpp"
 #include "vcan_tests/emulator/physics/heated_places.hpp"
+#include "vcan_tests/emulator/physics/pulled_wire.hpp"
+#include "vcan_tests/emulator/physics/tmc2209.hpp"
 #include "vcan_tests/emulator/servo_pulses.hpp"
 #include "vcan_tests/emulator/stm32g0b1_chip.hpp"
 
@@ -27,10 +29,13 @@ class EbbBoard : public Stm32g0b1Chip {
   std::uint32_t product_code() const override;
   /// With a boot loader, which looks through the program first.
   BusTime boot_time() const override { return std::chrono::milliseconds{350}; }
+  /// Where the rotor is.
   double true_counts(int axis) const override;
   /// 0: probe, 1: filament (PB4), 2: PB3.
   void set_input(int input, bool level) override;
   const StepDriver& driver() const { return driver_; }
+  Tmc2209& tmc() { return tmc_; }
+  const g0::Usart& usart() const { return usart2_; }
   void clear_edges() { driver_.clear_edges(); }
   /// The hot end at its clamps and TH0.
   HeatedPlaces& heated() { return heated_; }
@@ -45,10 +50,15 @@ class EbbBoard : public Stm32g0b1Chip {
  private:
   void reset_devices(Cycle now) override;
   void advance_devices(Cycle now) override;
-  Cycle next_of_devices() const override { return std::min(heated_.next_event(), spi2_.next_event()); }
+  Cycle next_of_devices() const override {
+    return std::min({heated_.next_event(), spi2_.next_event(), tmc_.next_event(), wire_.next_event()});
+  }
   void on_pins(Cycle now);
+  void look_at_wire(Cycle now);
 
   StepDriver driver_;
+  Tmc2209 tmc_;
+  PulledWire wire_;
   HeatedPlaces heated_;
   Adxl345Chip accelerometer_;
   Spi spi2_;

@@ -236,8 +236,8 @@ void OctopusBoard::advance_devices(Cycle now) {
     const Wire& wire = wires_[axis];
     const bool moves = chip.next_event() <= now;
     if (moves) chip.advance(now);
-    if (moves || wire.rises <= now || chip.pulls_low() != wire.chip_low) look_at_wire(axis, now);
-    wires_next_ = std::min({wires_next_, chip.next_event(), wire.rises});
+    if (moves || wire.level.next_event() <= now || chip.pulls_low() != wire.chip_low) look_at_wire(axis, now);
+    wires_next_ = std::min({wires_next_, chip.next_event(), wire.level.next_event()});
     if (spi_chips_[axis]) spi_chips_[axis]->advance(now);
   }
   look_at_diag();
@@ -265,32 +265,24 @@ void OctopusBoard::on_pins(Cycle now) {
     socket(axis).on_enable(enabled);
     look_at_wire(axis, now);
     drivers_[axis].on_pins(high(pins.step), high(pins.direction), enabled, now);
-    wires_next_ = std::min({wires_next_, chips_[axis].next_event(), wires_[axis].rises});
+    wires_next_ = std::min({wires_next_, chips_[axis].next_event(), wires_[axis].level.next_event()});
   }
   // MOSFETs with a pull-down: a pin that nobody drives is off.
   heated_.set_power(high(octopus::kHeaterPins[0]), high(octopus::kHeaterPins[1]), now);
   heated_.set_contactor(high(octopus::kContactorPin));
 }
 
-// Open drain at both ends, and a resistor: the lower one wins, and a rise takes its time.
+// Open drain at both ends.
 void OctopusBoard::look_at_wire(std::size_t axis, Cycle now) {
   const stm32::OutputPin& pin = octopus::kDrivers[axis].uart;
   GpioPort& port = ports_[static_cast<std::size_t>(pin.port)];
   Wire& wire = wires_[axis];
   const bool output = port.mode(pin.number) == GpioPort::Mode::kOutput, high = port.output_high(pin.number);
   const bool forced = output && high && !port.open_drain(pin.number);
-  const bool chip_low = chips_[axis].pulls_low();
-  wire.chip_low = chip_low;
-  const bool low = chip_low || (output && !high);
-  if (forced && chip_low && !wire.low) ++wire_fights_;
-  if (low != wire.low) {
-    wire.low = low;
-    wire.rises = low ? kNever : forced ? now : now + kRise;
-  }
-  const bool level = !low && (wire.rises == kNever ? wire.high : now >= wire.rises);
-  if (!low && now >= wire.rises) wire.rises = kNever;
-  if (level == wire.high) return;
-  wire.high = level;
+  wire.chip_low = chips_[axis].pulls_low();
+  if (forced && wire.chip_low && !wire.level.low()) ++wire_fights_;
+  if (!wire.level.look(wire.chip_low || (output && !high), forced, true, now)) return;
+  const bool level = wire.level.high();
   port.drive(pin.number, level);
   if (spi_chips_[axis])
     spi_chips_[axis]->on_select(!level, now);

@@ -13,6 +13,7 @@
 #include "vcan_tests/emulator/peripherals/dma.hpp"
 #include "vcan_tests/emulator/peripherals/spi.hpp"
 #include "vcan_tests/emulator/physics/heated_places.hpp"
+#include "vcan_tests/emulator/physics/pulled_wire.hpp"
 #include "vcan_tests/emulator/physics/tmc2209.hpp"
 #include "vcan_tests/emulator/physics/tmc_spi_chip.hpp"
 #include "vcan_tests/emulator/servo_pulses.hpp"
@@ -148,12 +149,9 @@ class OctopusBoard final : public Stm32f4Chip, public UsbSocket {
   DriverSpiBus::Chips spi_chips_{};
   DriverSpiBus spi_bus_{spi_chips_};
   Spi spi1_;
-  // A wire is let go of and rises by a resistor: not at once.
-  static constexpr Cycle kRise = 4 * kCoreHz / 1'000'000;
   struct Wire {
-    bool low = false, high = true;
+    PulledWire level;
     bool chip_low = false;  // the driver's part in it, when it was looked at
-    Cycle rises = kNever;
   };
   std::array<Wire, 8> wires_{};
   Cycle wires_next_ = kNever;  // of wires and drivers, or before it

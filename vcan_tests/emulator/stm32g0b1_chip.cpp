@@ -39,12 +39,14 @@ Stm32g0b1Chip::Stm32g0b1Chip(const ElfImage& image, const BoardOptions& options,
       tim2_(cpu_.nvic(), {.update_irq = 15, .cycles_per_tick = kCycles, .advanced = false, .ticks = kClocks}),
       tim1_(cpu_.nvic(), {.update_irq = 13, .break_irq = 13, .cycles_per_tick = kCycles, .ticks = kClocks}),
       tim17_(cpu_.nvic(), {.cycles_per_tick = kCycles, .ticks = kClocks}),
+      usart2_(kCycles, kClocks),
       dma_(cpu_.nvic()),
       can_(cpu_.nvic(), 21, 22),
       can_memory_(can_),
       debug_(device_id) {
   map(0x40000000, 0x400, tim2_, apb1(0));
   map(0x40003000, 0x400, watchdog_);
+  map(0x40004400, 0x400, usart2_, apb1(17));
   map(0x40006800, 0x400, can_, apb1(12));
   map(0x4000B400, 0x800, can_memory_, apb1(12));
   map(0x40012400, 0x400, adc_, apb2(20));
@@ -59,7 +61,16 @@ Stm32g0b1Chip::Stm32g0b1Chip(const ElfImage& image, const BoardOptions& options,
     map(0x50000000 + 0x400 * port, 0x400, ports_[port], iop(static_cast<int>(port)));
   dma_.fetch = [this](std::uint32_t address) { return cpu_.peek(address); };
   dma_.put = [this](std::uint32_t address, std::uint32_t word, Cycle at) { write(address, word, 4, at); };
-  // RM0444, DMAMUX: request lines 20 to 23 are TIM1's channels.
+  dma_.take = [this](std::uint32_t address, Cycle at) {
+    return static_cast<std::uint8_t>(read(address, 1, at));
+  };
+  dma_.keep = [this](std::uint32_t address, std::uint8_t byte) {
+    const unsigned shift = (address & 3) * 8;
+    const std::uint32_t word = cpu_.peek(address & ~3u);
+    cpu_.poke(address & ~3u, (word & ~(0xFFu << shift)) | std::uint32_t{byte} << shift);
+  };
+  // RM0444, DMAMUX: request lines 20 to 23 are TIM1's channels, 52 is what USART2 has received.
+  usart2_.on_request = [this](Cycle at) { dma_.on_request(52, at); };
   tim1_.on_request = [this](int channel, Cycle at) {
     dma_.on_request(19 + static_cast<std::uint32_t>(channel), at);
   };
@@ -89,6 +100,7 @@ void Stm32g0b1Chip::reset_chip(Rcc::ResetCause cause, Cycle now) {
   tim2_.reset(now);
   tim1_.reset(now);
   tim17_.reset(now);
+  usart2_.reset();
   adc_.reset();
   dma_.reset();
   can_.reset();
@@ -99,6 +111,7 @@ void Stm32g0b1Chip::advance_chip(Cycle now) {
   tim2_.advance(now);
   tim1_.advance(now);
   tim17_.advance(now);
+  usart2_.advance(now);
   adc_.advance(now);
   can_.advance(now);
 }

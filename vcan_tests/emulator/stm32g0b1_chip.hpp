@@ -10,6 +10,7 @@
 #include "vcan_tests/emulator/peripherals/gpio.hpp"
 #include "vcan_tests/emulator/peripherals/stm32g0.hpp"
 #include "vcan_tests/emulator/peripherals/stm32g0_adc.hpp"
+#include "vcan_tests/emulator/peripherals/stm32g0_usart.hpp"
 #include "vcan_tests/emulator/peripherals/timer.hpp"
 
 namespace kinebus::emulator {
@@ -41,6 +42,7 @@ class Stm32g0b1Chip : public Chip {
   std::array<GpioPort, 6> ports_;
   g0::Exti exti_;
   Timer tim2_, tim1_, tim17_;
+  g0::Usart usart2_;
   g0::Adc adc_;
   g0::Dma dma_;
   Fdcan can_;
@@ -60,8 +62,8 @@ class Stm32g0b1Chip : public Chip {
   void reset_chip(Rcc::ResetCause cause, Cycle now) override;
   void advance_chip(Cycle now) override;
   Cycle next_of_chip() const override {
-    return std::min(
-        {tim2_.next_event(), tim1_.next_event(), tim17_.next_event(), adc_.next_event(), can_.next_event()});
+    return std::min({tim2_.next_event(), tim1_.next_event(), tim17_.next_event(), usart2_.next_event(),
+                     adc_.next_event(), can_.next_event()});
   }
   bool live(const Rcc::Clock& clock, Cycle now) override { return rcc_.live(clock, now); }
   void after_write(Peripheral& written) override;

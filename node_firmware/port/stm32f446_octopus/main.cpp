@@ -87,14 +87,6 @@ void end_node(std::size_t number) {
   number == octopus::kHeatNode ? program->heat().end() : program->end(number);
 }
 
-// The drivers have their settings before the bus hears of the board: 0.25 s; less where they do not answer.
-void settle_drivers() {
-  DriverWires::start();
-  LocalClock<LocalTimer> clock;
-  constexpr LocalTime kLongest = std::chrono::seconds{1};
-  while (!drivers.settled() && clock.now() < kLongest) drivers.serve(clock.now());
-}
-
 // While no motor has power: a carriage must not lose its node. One node a pass: each takes milliseconds.
 void follow_first_id() {
   static std::uint8_t followed = 0;
@@ -156,7 +148,10 @@ int main() {
   if (!clocks_run(clock)) power_off_and_reset(clock, nullptr);
   system_control().VTOR = octopus::kProgramAddress;
   start_local_time();
-  if (own_board) settle_drivers();
+  if (own_board) {
+    DriverWires::start();
+    settle_drivers<LocalTimer>(drivers);  // 0.25 s; less where they do not answer
+  }
   can_port.start();
   const auto stored = images.load();
   static_cast<void>(store.prepare(kBoardIds * kLargestParameterImage));

@@ -1,6 +1,11 @@
 #pragma once
 // Carries out the table of the board.
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
 #include "node_firmware/port/stm32g0b1_ebb/registers.hpp"
 
 namespace kinebus::g0b1 {
@@ -12,16 +17,18 @@ inline bool read(stm32::SwitchPin pin) {
   return (gpio(static_cast<unsigned>(pin.port)).IDR >> pin.line & 1) != 0;
 }
 
-/// Pins that are not in the table stay as reset leaves them: analogue, and the debug port.
-template <const auto& kPins>
-void configure_pins() {
-  constexpr std::uint32_t kPorts = [] {
-    std::uint32_t ports = 0;
-    for (const stm32::Pin& pin : kPins) ports |= Rcc::gpio_clock(pin.port);
-    return ports;
-  }();
-  enable_clock(rcc().IOPENR, kPorts);
-  for (const stm32::Pin& pin : kPins) {
+/// A pin of a table without its name, which would take flash.
+struct PinSetting {
+  stm32::Port port;
+  std::uint8_t number;
+  stm32::Mode mode;
+  stm32::Pull pull;
+  std::uint8_t alternate;
+  bool high;
+};
+inline void configure(std::span<const PinSetting> pins) {
+  for (const PinSetting& pin : pins) {
+    enable_clock(rcc().IOPENR, Rcc::gpio_clock(pin.port));
     Gpio& g = gpio(static_cast<unsigned>(pin.port));
     const auto set = [&](Reg& reg, unsigned bits, std::uint32_t value) {
       const unsigned at = (pin.number * bits) % 32;
@@ -33,6 +40,19 @@ void configure_pins() {
     set(g.PUPDR, 2, static_cast<std::uint32_t>(pin.pull));
     set(g.MODER, 2, static_cast<std::uint32_t>(pin.mode));
   }
+}
+/// Pins that are not in the table stay as reset leaves them: analogue, and the debug port.
+template <const auto& kPins>
+void configure_pins() {
+  static constexpr auto kSettings = [] {
+    std::array<PinSetting, kPins.size()> settings{};
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+      const stm32::Pin& pin = kPins[i];
+      settings[i] = {pin.port, pin.number, pin.mode, pin.pull, pin.alternate, pin.high};
+    }
+    return settings;
+  }();
+  configure(kSettings);
 }
 
 }  // namespace kinebus::g0b1

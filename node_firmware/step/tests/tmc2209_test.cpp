@@ -10,6 +10,7 @@
 
 #include "node_firmware/step/driver_chain.hpp"
 #include "node_firmware/step/one_wire.hpp"
+#include "node_firmware/step/soldered_driver.hpp"
 
 namespace kinebus::tmc2209 {
 namespace {
@@ -229,6 +230,62 @@ TEST_F(Chain, OneThatStandsAloneIsLeftAlone) {
   EXPECT_FALSE(driver.usable());
   run(80ms);
   EXPECT_TRUE(driver.usable());
+}
+
+/// The same wire, and a chip that is always there.
+struct Soldered : testing::Test {
+  void run(LocalTime time) {
+    for (const LocalTime end = now + time; now < end; now += 1ms) chain.serve(now);
+  }
+  FakeWire wire;
+  step::DriverChain<FakeWire, 1, step::SolderedDriver> chain{wire};
+  step::SolderedDriver& driver = chain.driver(0);
+  LocalTime now{0};
+};
+
+TEST_F(Soldered, GetsItsSettingsAndIsAskedHowItIs) {
+  driver.set({.run_ma = 1200, .hold_ma = 600});
+  run(50ms);
+  EXPECT_TRUE(chain.settled());
+  EXPECT_EQ(driver.state(), DriverState::kConfigured);
+  EXPECT_EQ(driver.chip().found(), 2209);
+  EXPECT_EQ(wire.registers[reg::kIholdIrun] >> 8 & 31, 26u);
+  wire.registers[reg::kDrvStatus] = drv_status::kPreWarning;
+  run(200ms);
+  EXPECT_EQ(driver.chip().findings() & step::finding::kPreWarning, step::finding::kPreWarning);
+}
+
+TEST_F(Soldered, ThatDoesNotAnswerIsSilentAtOnceAndAskedNowAndThen) {
+  wire.there = false;
+  run(50ms);
+  EXPECT_TRUE(chain.settled());
+  EXPECT_EQ(driver.state(), DriverState::kSilent);
+  EXPECT_FALSE(driver.usable());
+  const int asked = wire.exchanges;
+  run(2s);
+  EXPECT_LE(wire.exchanges - asked, 5);
+  wire.there = true;
+  run(1s);
+  EXPECT_TRUE(driver.usable());
+}
+
+TEST_F(Soldered, ThatStandsAloneIsLeftAloneAndToldAllWhenItNoLongerDoes) {
+  driver.set({.run_ma = 1200, .hold_ma = 600});
+  run(80ms);
+  driver.set_spoken_to(false);
+  const int asked = wire.exchanges;
+  driver.set({.run_ma = 900, .hold_ma = 600});
+  run(1s);
+  EXPECT_EQ(wire.exchanges, asked);
+  EXPECT_EQ(driver.state(), DriverState::kStandsAlone);
+  EXPECT_TRUE(driver.usable());
+  wire.registers.clear();
+  driver.set_spoken_to(true);
+  EXPECT_FALSE(driver.usable());
+  run(80ms);
+  EXPECT_TRUE(driver.usable());
+  EXPECT_EQ(wire.registers[reg::kIholdIrun] >> 8 & 31, 19u);  // 20/32 of 1384 mA
+  EXPECT_NE(wire.registers[reg::kChopconf], 0u);
 }
 
 }  // namespace

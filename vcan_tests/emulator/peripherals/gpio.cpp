@@ -19,7 +19,7 @@ std::uint32_t GpioPort::levels() const {
   std::uint32_t word = 0;
   for (int pin = 0; pin < 16; ++pin) {
     const std::uint32_t bit = 1u << pin;
-    bool high = (pupdr_ >> (2 * pin) & 3) == 1;
+    bool high = pulled_up(pin);
     if ((driven_ & bit) != 0) high = (driven_level_ & bit) != 0;
     if (mode(pin) == Mode::kOutput && ((otyper_ & bit) == 0 || (odr_ & bit) == 0)) high = (odr_ & bit) != 0;
     if (mode(pin) == Mode::kAnalogue) high = false;
@@ -61,7 +61,7 @@ std::uint32_t GpioPort::read(std::uint32_t offset, Cycle) {
 }
 
 void GpioPort::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
-  const std::array before{moder_, otyper_, odr_, afr_[0], afr_[1]};
+  const std::array before{moder_, otyper_, pupdr_, odr_, afr_[0], afr_[1]};
   switch (offset) {
     case 0x00:
       set_modes(value);
@@ -90,7 +90,7 @@ void GpioPort::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
     default:
       return;
   }
-  const std::array after{moder_, otyper_, odr_, afr_[0], afr_[1]};
+  const std::array after{moder_, otyper_, pupdr_, odr_, afr_[0], afr_[1]};
   if (after != before && on_change) on_change(now);
 }
 

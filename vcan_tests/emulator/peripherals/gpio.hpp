@@ -25,6 +25,7 @@ class GpioPort final : public Peripheral {
   enum class Mode : std::uint8_t { kInput, kOutput, kAlternate, kAnalogue };
   Mode mode(int pin) const { return static_cast<Mode>(moder_ >> (2 * pin) & 3); }
   bool open_drain(int pin) const { return (otyper_ >> pin & 1) != 0; }
+  bool pulled_up(int pin) const { return (pupdr_ >> (2 * pin) & 3) == 1; }
   int alternate(int pin) const {
     return static_cast<int>(afr_[static_cast<std::size_t>(pin / 8)] >> (4 * (pin % 8)) & 0xF);
   }

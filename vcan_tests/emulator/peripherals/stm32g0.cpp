@@ -254,14 +254,21 @@ void Dma::update() {
 void Dma::on_request(std::uint32_t line, Cycle at) {
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     Channel& c = channels_[i];
-    // Words, from memory that goes on to one place: all that is modelled; anything else is an error.
+    // Words from memory that goes on to one place, bytes the other way: all that is modelled; anything else
+    // is an error.
+    constexpr std::uint32_t kKind = 0x4FD0, kWordsOut = 0xA90, kBytesIn = 0x80;
     if ((c.ccr & 1) == 0 || (c.request & 0x7F) != line) continue;
-    if ((c.ccr & 0x4FD0) != 0xA90 || c.left == 0) {
+    const std::uint32_t kind = c.ccr & kKind, done = c.cndtr - c.left;
+    if (kind == kBytesIn && c.left == 0) continue;
+    if ((kind != kWordsOut && kind != kBytesIn) || c.left == 0) {
       flags_ |= 8u << (4 * i);
       c.ccr &= ~1u;
       continue;
     }
-    put(c.cpar, fetch(c.cmar + 4 * (c.cndtr - c.left)), at);
+    if (kind == kBytesIn)
+      keep(c.cmar + done, take(c.cpar, at));
+    else
+      put(c.cpar, fetch(c.cmar + 4 * done), at);
     --c.left;
     if (c.left == c.cndtr / 2) flags_ |= 5u << (4 * i);
     if (c.left == 0) {
@@ -277,7 +284,7 @@ std::uint32_t Dma::read(std::uint32_t offset, Cycle) {
   if (offset >= 0x800 && offset < 0x81C) return channels_[(offset - 0x800) / 4].request;
   if (offset < 8 || offset >= 8 + 20 * kChannels) return 0;
   const Channel& c = channels_[(offset - 8) / 20];
-  const std::array words{c.ccr, (c.ccr & 1) != 0 ? c.left : c.cndtr, c.cpar, c.cmar, 0u};
+  const std::array words{c.ccr, c.left, c.cpar, c.cmar, 0u};
   return words[(offset - 8) / 4 % 5];
 }
 
@@ -299,7 +306,7 @@ void Dma::write(std::uint32_t offset, std::uint32_t value, Cycle) {
     if ((c.ccr & 1) == 0 && (value & 1) != 0) c.left = c.cndtr;
     c.ccr = value;
   } else if ((c.ccr & 1) == 0) {  // the others are read-only while the channel is on
-    if (what == 1) c.cndtr = value & 0xFFFF;
+    if (what == 1) c.cndtr = c.left = value & 0xFFFF;
     if (what == 2) c.cpar = value;
     if (what == 3) c.cmar = value;
   }

@@ -77,7 +77,8 @@ class Flash final : public Peripheral {
   std::uint64_t erases_ = 0, errors_ = 0;
 };
 
-/// DMA1 with its channels 1 to 7, and the DMAMUX: words from memory to a peripheral.
+/// DMA1 with its channels 1 to 7, and the DMAMUX: words from memory to a peripheral, bytes from one to
+/// memory.
 class Dma final : public Peripheral {
  public:
   static constexpr int kChannels = 7;
@@ -90,6 +91,8 @@ class Dma final : public Peripheral {
 
   std::function<std::uint32_t(std::uint32_t address)> fetch;
   std::function<void(std::uint32_t address, std::uint32_t word, Cycle at)> put;
+  std::function<std::uint8_t(std::uint32_t address, Cycle at)> take;   ///< from a peripheral
+  std::function<void(std::uint32_t address, std::uint8_t byte)> keep;  ///< in memory
 
  private:
   struct Channel {

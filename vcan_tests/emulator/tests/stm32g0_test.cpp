@@ -7,6 +7,7 @@
 #include "vcan_tests/emulator/peripherals/fdcan.hpp"
 #include "vcan_tests/emulator/peripherals/stm32g0.hpp"
 #include "vcan_tests/emulator/peripherals/stm32g0_adc.hpp"
+#include "vcan_tests/emulator/peripherals/stm32g0_usart.hpp"
 
 namespace kinebus::emulator {
 namespace {
@@ -164,6 +165,103 @@ TEST_F(G0Adc, AddsUpAndTakesItsTime) {
   EXPECT_EQ(read(kIsr) & 4, 0u);
   wait(2 * 2768);
   EXPECT_EQ(read(kIsr) & 16, 16u) << "one was not fetched";
+}
+
+/// On one wire by RX's pin, 40 kbaud of 64 MHz; 168 MHz is the time base.
+struct G0Usart : testing::Test {
+  static constexpr std::uint32_t kCr1 = 0x00, kCr2 = 0x04, kCr3 = 0x08, kBrr = 0x0C, kRqr = 0x18, kIsr = 0x1C,
+                                 kIcr = 0x20, kRdr = 0x24, kTdr = 0x28;
+  static constexpr Cycle kBit = 1600 * 21 / 8;
+  G0Usart() {
+    usart.on_output = [this](Cycle at) {
+      edges.emplace_back(at, !usart.drives_low());
+      usart.on_wire(!usart.drives_low(), at);
+    };
+  }
+  void switch_on(std::uint32_t fifos = 1u << 29) {
+    usart.write(kBrr, 1600, 0);
+    usart.write(kCr2, 1u << 15, 0);
+    usart.write(kCr3, 8, 0);
+    usart.write(kCr1, fifos | 4 | 8 | 1, 0);
+    usart.advance(11 * kBit);
+  }
+  void hear(std::uint32_t frame, Cycle from, Cycle bit) {
+    for (Cycle i = 0; i < 10; ++i) {
+      usart.advance(from + i * bit);
+      usart.on_wire((frame >> i & 1) != 0, from + i * bit);
+    }
+    usart.advance(from + 10 * bit);
+  }
+  g0::Usart usart{21, 8};
+  std::vector<std::pair<Cycle, bool>> edges;
+};
+
+TEST_F(G0Usart, SendsBitsAndHearsItselfOnItsOneWire) {
+  switch_on();
+  EXPECT_TRUE(usart.one_wire_at_rx());
+  const Cycle from = 20 * kBit;
+  usart.write(kTdr, 0x05, from);
+  usart.advance(from + 10 * kBit);
+  ASSERT_GE(edges.size(), 5u);
+  EXPECT_EQ(edges[0], (std::pair{from, false}));
+  EXPECT_EQ(edges[1], (std::pair{from + kBit, true}));
+  EXPECT_EQ(edges[2], (std::pair{from + 2 * kBit, false}));
+  EXPECT_EQ(usart.read(kIsr, from) & 0x60, 0x60u) << "complete, and heard";
+  EXPECT_EQ(usart.read(kRdr, from), 0x05u);
+  EXPECT_FALSE(usart.drives());
+}
+
+TEST_F(G0Usart, TakesNoSettingWhileItIsOnAndLetsGoOfWhatItHasNoRoomFor) {
+  switch_on();
+  usart.write(kBrr, 800, 0);
+  usart.write(kCr2, 0, 0);
+  usart.write(kCr3, 0, 0);
+  EXPECT_EQ(usart.read(kBrr, 0), 1600u);
+  EXPECT_TRUE(usart.one_wire_at_rx());
+  for (int i = 0; i < 8; ++i) usart.write(kTdr, 0x55, 20 * kBit);
+  EXPECT_EQ(usart.read(kIsr, 0) & 0x80, 0u) << "full";
+  usart.write(kTdr, 0x55, 20 * kBit);
+  EXPECT_EQ(usart.misused(), 1u);
+  usart.advance(101 * kBit);
+  EXPECT_EQ(usart.read(kIsr, 0) & 0x40, 0x40u);
+}
+
+TEST_F(G0Usart, LosesTheNinthByteThatNobodyFetches) {
+  switch_on();
+  for (Cycle i = 0; i < 9; ++i) hear(1u << 9 | 0x42u << 1, (20 + 11 * i) * kBit, kBit);
+  EXPECT_EQ(usart.read(kIsr, 0) & 8, 8u);
+  usart.write(kIcr, 0xF, 0);
+  usart.write(kRqr, 8, 0);
+  EXPECT_EQ(usart.read(kIsr, 0) & 0x28, 0u);
+}
+
+TEST_F(G0Usart, HearsBitsThatAreThreePercentOffAndNotThoseOfEight) {
+  switch_on();
+  hear(1u << 9 | 0xA5u << 1, 20 * kBit, kBit * 103 / 100);
+  EXPECT_EQ(usart.read(kRdr, 0), 0xA5u);
+  hear(1u << 9 | 0xA5u << 1, 60 * kBit, kBit * 108 / 100);
+  usart.advance(80 * kBit);
+  const bool framing_error = (usart.read(kIsr, 0) & 2) != 0;
+  EXPECT_TRUE(framing_error || usart.read(kRdr, 0) != 0xA5u);
+}
+
+TEST_F(G0Usart, DmaKeepsWhatItHears) {
+  G0Lines lines;
+  g0::Dma dma{lines};
+  std::vector<std::uint8_t> kept(4);
+  dma.take = [&](std::uint32_t, Cycle at) { return static_cast<std::uint8_t>(usart.read(kRdr, at)); };
+  dma.keep = [&](std::uint32_t address, std::uint8_t byte) { kept[address] = byte; };
+  usart.on_request = [&](Cycle at) { dma.on_request(52, at); };
+  switch_on();
+  usart.write(kCr3, 8 | 0x40, 0);
+  dma.write(0x804, 52, 0);
+  dma.write(8 + 20 + 4, 2, 0);
+  dma.write(8 + 20, 0x81, 0);
+  for (Cycle i = 0; i < 3; ++i)
+    hear(1u << 9 | static_cast<std::uint32_t>(i + 1) << 1, (20 + 11 * i) * kBit, kBit);
+  EXPECT_EQ(kept, (std::vector<std::uint8_t>{1, 2, 0, 0}));
+  EXPECT_EQ(dma.read(8 + 20 + 4, 0), 0u);
+  EXPECT_EQ(usart.read(kIsr, 0) & 0x20, 0x20u) << "the third is left";
 }
 
 }  // namespace
