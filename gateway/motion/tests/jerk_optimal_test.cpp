@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -54,8 +55,8 @@ TEST(JerkOptimal, ReferenceFindsTheFormulaOfALineFromRestToRest) {
 
 TEST(JerkOptimal, PlansAreNearIt) {
   EXPECT_LE(compare(random_print(7, 80), 60).over_optimum, 1.07);
-  EXPECT_LE(compare(dense_curve(800, 30, 0, 0, 0), 100).over_optimum, 1.03);
-  EXPECT_LE(compare(dense_curve(800, 30, 0, 0.5, 1), 100).over_optimum, 1.05);
+  EXPECT_LE(compare(dense_curve(800, 30, 0, 0, 0), 100).over_optimum, 1.022);
+  EXPECT_LE(compare(dense_curve(800, 30, 0, 0.5, 1), 100).over_optimum, 1.036);
 }
 
 /// Facets of a curve, as slicers write them: 1.4 mm, 8 degrees, within 5 um. What a jerk limit costs there no
@@ -69,6 +70,19 @@ TEST(JerkOptimal, FacetsWithinATightToleranceCostTimeAtTheOptimumToo) {
   const Compared compared = compare(job.lines(), 60);
   EXPECT_GE(compared.over_trapezoid, 1.2);
   EXPECT_LE(compared.over_optimum, 1.04);
+}
+
+/// As in the teeth of a sliced gear: beside one bend of three a line is too short for a ramp to its cap.
+TEST(JerkOptimal, ABendWithoutRoomForItsCapIsPassedAsFastAsThereIsRoom) {
+  Job job;
+  double angle = 0;
+  for (int i = 0; i < 45; ++i) {
+    constexpr std::array kLength_mm{1.63, 0.46, 0.40}, kTurn_rad{0.24, 0.44, 0.22};
+    const double mm = kLength_mm[i % 3];
+    job.by({mm * std::cos(angle), mm * std::sin(angle), 0, 0, 0, 0.05});
+    angle += kTurn_rad[i % 3];
+  }
+  EXPECT_LE(compare(job.lines(), 60).over_optimum, 1.14);
 }
 
 /// Between two bends that are nearly one there is no room to change the speed. Both are passed alike, and the
