@@ -2,6 +2,9 @@
 // The clock that a lab's guest and the boards beside it share (tools/vm/run --slow).
 
 #include <dlfcn.h>
+#include <poll.h>
+
+#include <ctime>
 
 #include "protocol/time.hpp"
 
@@ -22,6 +25,11 @@ class LabClock {
     if (hold_ != nullptr) hold_(here.count());
   }
   void go_on() const { wait_at(LocalTime{0}); }
+  /// For what comes from the guest: a millisecond at most, and less where it waits, too.
+  void wait(pollfd what) const {
+    const timespec patience{0, hold_ != nullptr ? 100'000 : 1'000'000};
+    ::ppoll(&what, 1, &patience, nullptr);
+  }
   /// Its processor has not run for a while: another program of this computer had it.
   bool guest_is_behind(LocalTime here) const {
     const LocalTime seen{seen_ != nullptr ? seen_() : 0};

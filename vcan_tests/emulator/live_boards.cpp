@@ -89,8 +89,7 @@ std::string run_live(const ElfImage& image, const std::vector<EmulatedNodeOption
     }
     if (spoken_to) clock.wait_at(began + slipped + now + kBehind + kPiece);
     const bool waits = spoken_to && clock.guest_is_behind(began + slipped + now);
-    pollfd wait = bus.waits_for(true);
-    poll(&wait, 1, now < goal && !waits ? 0 : 1);
+    if (waits || now >= goal) clock.wait(bus.waits_for(true));
     const BusTime behind = monotonic_now() - began - slipped - kBehind - now;
     if (behind > options.most_behind + kPiece) slipped += behind - kPiece;
     while (const auto got = bus.receive()) {

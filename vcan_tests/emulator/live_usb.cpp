@@ -1,7 +1,5 @@
 #include "vcan_tests/emulator/live_usb.hpp"
 
-#include <poll.h>
-
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -26,12 +24,6 @@ void on_end(int) {
   ended = true;
 }
 
-/// Waits for the computer, at most a millisecond.
-void wait_for(const UsbLine& line) {
-  pollfd wait{line.fd(), POLLIN, 0};
-  poll(&wait, 1, 1);
-}
-
 }  // namespace
 
 std::string run_usb(const ElfImage& image, const std::vector<EmulatedNodeOptions>& boards, UsbLine& line,
@@ -54,7 +46,7 @@ std::string run_usb(const ElfImage& image, const std::vector<EmulatedNodeOptions
     BusTime wall = monotonic_now() - began - slipped;
     const bool waits = joined && clock.guest_is_behind(began + slipped + now);
     if (waits || now > wall + kAhead / 2) {
-      wait_for(line);
+      clock.wait({line.fd(), POLLIN, 0});
       continue;
     }
     if (wall > now + options.most_behind) {
