@@ -35,6 +35,7 @@ inline constexpr std::array kPins = {
   Pin{D,  0, kOutput,    kNone,  0, false, "step"},
   Pin{D,  1, kOutput,    kNone,  0, false, "direction"},
   Pin{D,  2, kOutput,    kUp,    0, true,  "enable, active low"},
+  Pin{A, 15, kAlternate, kUp,    1, false, "driver's UART, open drain (USART2_RX)"},
   // Hot end and fans.
   Pin{B, 13, kOutput,    kDown,  0, false, "heater of v1.2"},
   Pin{A,  2, kOutput,    kDown,  0, false, "heater of v1.1"},
@@ -57,6 +58,7 @@ inline constexpr std::array kHeatPins = {
   Pin{B, 10, kAlternate, kNone,  5, false, "ADXL345 SCK (SPI2)"},
   Pin{B,  2, kAlternate, kUp,    1, false, "ADXL345 MISO (SPI2)"},
   Pin{B, 11, kAlternate, kNone,  0, false, "ADXL345 MOSI (SPI2)"},
+  Pin{A, 15, kInput,     kUp,    0, false, "driver's UART, not used: at rest"},
 };
 // clang-format on
 static_assert(stm32::pins_differ(kPins));
@@ -64,7 +66,7 @@ static_assert(stm32::pins_differ(kPins));
 inline constexpr std::array<SwitchPin, 3> kSwitchPins{{{B, 8}, {B, 4}, {B, 3}}};
 static_assert(stm32::lines_differ(kSwitchPins));
 
-inline constexpr OutputPin kStep{D, 0}, kDirection{D, 1}, kEnable{D, 2};
+inline constexpr OutputPin kStep{D, 0}, kDirection{D, 1}, kEnable{D, 2}, kDriverWire{A, 15};
 inline constexpr std::array<OutputPin, 2> kFans{{{A, 0}, {A, 1}}};
 
 /// The ADXL345's select line, low.
@@ -84,7 +86,7 @@ inline constexpr std::array kPowerPins{PowerPin{kEnable, true}, PowerPin{kHeater
                                        PowerPin{kOtherHeater, false}, PowerPin{kFans[0], false},
                                        PowerPin{kFans[1], false}};
 
-/// 16 microsteps a full step of 256 counts: log2 of counts a step.
+/// 16 microsteps a full step of 256 counts, as the driver is told: log2 of counts a step.
 inline constexpr int kStepBits = 4;
 
 // Flash of 128 KiB, one bank of 64 pages: the boot loader at its start, the program, then its parameters.

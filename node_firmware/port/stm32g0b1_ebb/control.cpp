@@ -4,5 +4,5 @@
 #include "node_firmware/port/stm32g0b1_ebb/motors.hpp"
 
 extern "C" void isr_control() {
-  kinebus::g0b1::motors.on_control();
+  kinebus::g0b1::motor_parts->motors.on_control();
 }

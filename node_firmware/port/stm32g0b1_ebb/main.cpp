@@ -70,6 +70,12 @@ int main() {
   if (!start_clocks()) power_off_and_reset(fault_reason::kNoClock, nullptr);
   system_control().VTOR = ebb::kProgramPages.address();
   start_local_time();
+  MotorParts& parts = motor_parts.emplace();
+  auto& motors = parts.motors;
+  if (own_chip) {
+    DriverUart::start();
+    settle_drivers<LocalTimer>(parts.drivers);  // 50 ms, where it does not answer, too
+  }
   can_port.start();
   const auto stored = parameters.load();
   static_cast<void>(parameters.prepare(kLargestParameterImage));
@@ -79,7 +85,7 @@ int main() {
                       .reset = take_reset_report(),
                       .table = &BoardObjects<Stm32g0b1EbbBoard>::kTable};
   options.identity.serial = serial_number(unique_id());
-  program.emplace(options, stored, axis_tap, switch_port, plans[0]);
+  program.emplace(options, stored, axis_tap, switch_port, parts.plans[0]);
   Node& node = program->node();
   if (own_chip) {
     switch_port.start(local_counts());
@@ -95,6 +101,7 @@ int main() {
           return parameters.save(std::array{std::span<const std::uint8_t>(image)});
         },
         dog);
+    if (own_chip) parts.drivers.serve(program->now());
     // Asked for by 1F51h, when the answer is on the bus. Nothing has power then (the node refuses otherwise).
     if (node.program_stop_requested() && can_port.queue().idle()) {
       handover_ram = Handover{.stay = Handover::kBootLoader, .node_id = node.node_id()};
@@ -115,10 +122,10 @@ extern "C" {
 }
 /// What the plan asks of a motor now: counts with 32 fractional bits.
 [[gnu::used, gnu::section(".kept.debug_calls")]] std::int64_t debug_position(int axis) {
-  return plans[0].current().at(axis, local_counts()).position;
+  return motor_parts->plans[0].current().at(axis, local_counts()).position;
 }
 /// Steps up to the end of the frame that was computed last.
 [[gnu::used, gnu::section(".kept.debug_calls")]] std::int64_t debug_steps(int axis) {
-  return motors.steps(axis);
+  return motor_parts->motors.steps(axis);
 }
 }

@@ -38,7 +38,7 @@ struct Rcc {
                                  kWindowWatchdogReset = bit(30);  // CSR
   static constexpr std::uint32_t gpio_clock(stm32::Port port) { return bit(static_cast<int>(port)); }
   static constexpr std::uint32_t kDma1 = bit(0);  // AHBENR
-  static constexpr std::uint32_t kTim2 = bit(0), kCan = bit(12), kSpi2 = bit(14),
+  static constexpr std::uint32_t kTim2 = bit(0), kCan = bit(12), kSpi2 = bit(14), kUsart2 = bit(17),
                                  kDebug = bit(27);                                   // APBENR1
   static constexpr std::uint32_t kTim1 = bit(11), kTim17 = bit(18), kAdc = bit(20);  // APBENR2
 };
@@ -108,6 +108,21 @@ inline Spi& spi2() {
   return peripheral<Spi>(0x4000'3800);
 }
 
+struct Usart {
+  Reg CR1, CR2, CR3, BRR, GTPR, RTOR, RQR, ISR, ICR, RDR, TDR;
+  static constexpr std::uint32_t kEnable = bit(0), kReceiver = bit(2), kTransmitter = bit(3),
+                                 kFifos = bit(29);                            // CR1
+  static constexpr std::uint32_t kPinsSwapped = bit(15);                      // CR2
+  static constexpr std::uint32_t kOneWire = bit(3), kReceivedToDma = bit(6);  // CR3
+  static constexpr std::uint32_t kForgetReceived = bit(3);                    // RQR
+  static constexpr std::uint32_t kErrors = 0xF;                               // ICR
+  static constexpr std::size_t kFifoBytes = 8;
+};
+static_assert(offsetof(Usart, RQR) == 0x18 && offsetof(Usart, TDR) == 0x28);
+inline Usart& usart2() {
+  return peripheral<Usart>(0x4000'4400);
+}
+
 struct Adc {
   Reg ISR, IER, CR, CFGR1, CFGR2, SMPR, reserved0[4], CHSELR, reserved1[5], DR;
   static constexpr std::uint32_t kReady = bit(0), kEndOfConversion = bit(2), kChannelsTaken = bit(13);  // ISR
@@ -142,7 +157,7 @@ inline Dma& dma1() {
 /// Which request each DMA channel serves: [0] is DMA1's channel 1.
 struct DmaMux {
   Reg CCR[12];
-  static constexpr std::uint32_t kTim1Channel1 = 20;
+  static constexpr std::uint32_t kTim1Channel1 = 20, kUsart2Receive = 52;
 };
 inline DmaMux& dma_mux() {
   return peripheral<DmaMux>(0x4002'0800);
