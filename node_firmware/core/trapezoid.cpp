@@ -39,12 +39,22 @@ constexpr std::int64_t nominal(std::int64_t limit) {
   return divide_up(change * 16, acceleration);  // 60 - 56 fractional bits
 }
 
+/// Certainly: the mean velocity that remains for `distance` in `sum` is further below v0 than `first` lets it
+/// fall. As in most attempts at a stop; found without a division.
+bool too_slow(const Problem& p, ProfileTicks first, std::uint64_t distance, ProfileTicks sum) {
+  // So short that neither product overflows.
+  if (first >= ProfileTicks{1} << 18 || sum >= ProfileTicks{1} << 29) return false;
+  const std::int64_t least_peak = p.v0 - ((p.deceleration * first) >> 4);
+  return least_peak > 0 && distance < static_cast<std::uint64_t>(distance_of((least_peak + 1) / 2, sum));
+}
+
 /// Peak velocity that makes the durations cover the distance exactly. False: not within the limits.
 [[gnu::noinline]] bool solve_peak(const Problem& p, Durations& d) {
   const auto fixed = static_cast<std::uint64_t>(distance_of(p.v0, d.first)) / 2;
   if (fixed >= p.distance) return false;
   // distance = (v0 + peak)/2 first + peak cruise + peak/2 last
   const ProfileTicks sum = d.first + 2 * d.cruise + d.last;
+  if (too_slow(p, d.first, p.distance - fixed, sum)) return false;
   d.peak = velocity_over(p.distance - fixed, sum) * 2;
   const std::int64_t change = d.peak - p.v0;
   const bool change_ok =

@@ -193,6 +193,32 @@ TEST(Ebb, TwoHundredThousandStepsASecond) {
   expect_profile(1'600'000, 3'200'000, 32'000'000, 1200ms, 200'000, 1'000);
 }
 
+// The plan of a stop is there before the one of the motion has come to its end, and before the motor is too
+// far beyond where it is to stand.
+TEST(Ebb, StopsAProfileFromTwentyFiveThousandStepsASecond) {
+  constexpr int kQuickStop = 0x02, kHalt = 0x10F;
+  double longest_us = 0;
+  for (const int word : {kQuickStop, kHalt})
+    for (const auto later : {0us, 1300us, 2600us, 3900us, 5200us}) {
+      OneEbb node;
+      node.write(0x607F, 0, 4, 3'200'000);
+      node.bench.enable(kId, 0, 1);
+      node.board.cpu().clear_costs();
+      node.bench.move(kId, 0, 8'000'000, 400'000, 6'400'000);
+      node.bench.run(400ms + later);
+      node.write(0x6040, 0, 2, word);
+      node.bench.run(200ms);
+      EXPECT_TRUE(node.bench.emergencies(kId).empty()) << std::hex << word;
+      EXPECT_LE(seconds_of(node.board.cpu().longest_pass()), kLongestPass);
+      longest_us = std::max(longest_us, 1e6 * seconds_of(node.board.cpu().longest_pass()));
+      node.board.clear_edges();
+      node.bench.run(50ms);
+      EXPECT_TRUE(node.board.driver().edges().empty());
+      node.expect_good_driver();
+    }
+  fmt::print("main loop {:.0f} us at most\n", longest_us);
+}
+
 TEST(Ebb, StoresItsParametersOverAPowerCycle) {
   OneEbb node({}, &make_board<EbbBoard>, true);
   for (const int value : {12'345, 23'456, 34'567}) {
