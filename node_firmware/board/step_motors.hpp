@@ -20,14 +20,14 @@
 
 namespace kinebus {
 
-/// Bits of a port's word for an axis. No step: the board has only the first axis.
+/// Of an axis, as the words of the stage's frames have them. No step: the board has only the first axis.
 struct StepPins {
   std::size_t step_port = 0, direction_port = 0;  ///< as the stage numbers its ports
   std::uint32_t step = 0, direction = 0;
 };
 
 template <typename T>
-concept StepStage = requires(T& stage, step::StepFrames<T::kPorts>& frames, int axis, bool on) {
+concept StepStage = requires(T& stage, typename T::Frames& frames, int axis, bool on) {
   { T::kPins.size() } -> std::convertible_to<std::size_t>;  // of StepPins: by node, and by its axis
   requires T::kPins.size() % kAxesPerNode == 0;
   { T::kStepBits } -> std::convertible_to<int>;   // log2 of counts a step
@@ -44,6 +44,7 @@ concept StepStage = requires(T& stage, step::StepFrames<T::kPorts>& frames, int 
 template <StepStage Stage, typename Drivers = NoDrivers>
 class StepMotors {
  public:
+  using Frames = typename Stage::Frames;  // step::StepFrames
   static constexpr std::size_t kAxes = Stage::kPins.size(), kNodes = kAxes / kAxesPerNode;
   using Plans = std::array<MotionPlanExchange, kNodes>;
 
@@ -114,7 +115,7 @@ class StepMotors {
 
   const Plans& plans_;
   Stage stage_;
-  step::StepFrames<Stage::kPorts> frames_;
+  Frames frames_;
   std::array<Axis, kAxes> axes_{};
   std::array<LocalTime, kNodes> due_{}, drivers_due_{};
   bool other_power_ = false;
@@ -204,15 +205,17 @@ void StepMotors<Stage, Drivers>::fill(Axis& axis, const step::PlannedWay& way, c
     axis.steps.forget_direction();
   }
   struct {
-    typename step::StepFrames<Stage::kPorts>::Lane lane;
+    typename Frames::Lane lane;
     std::uint32_t pin;
-    step::StepFrames<Stage::kPorts>& frames;
+    Frames& frames;
     const StepPins& pins;
     bool inverted;
     [[gnu::always_inline]] void step(int slot) { lane.pulse(slot, pin); }
     [[gnu::always_inline]] void early_step(int slot) { lane.early_pulse(slot, pin); }
     void turn(int slot, bool up) {
-      frames.put(pins.direction_port, slot, up != inverted ? pins.direction : pins.direction << 16);
+      using Words = typename Frames::Words;
+      frames.put(pins.direction_port, slot,
+                 up != inverted ? Words::high(pins.direction) : Words::low(pins.direction));
     }
   } put{frames_.lane(pins.step_port), pins.step, frames_, pins, inverted};
   const bool good = axis.steps.fill(way, put);

@@ -1,7 +1,6 @@
 #pragma once
 // What the pins of a board do in the next 64 us, as words that a timer and a DMA controller put out one a
-// microsecond: the lower half of a word sets pins of its port, the upper half resets them (BSRR of the
-// STM32).
+// microsecond. 0: everything stays as it is.
 
 #include <array>
 #include <cstddef>
@@ -29,10 +28,24 @@ inline constexpr int kTail = kSetUp + kPulse;
 /// Steps of slots before this one end within the frame.
 inline constexpr int kEarly = kSlots - kTail;
 
-/// Two frames of every port: one is put out while the other is filled.
-template <std::size_t kPorts>
+/// For a port of pins (BSRR of the STM32): the lower half of a word sets them, the upper half resets them.
+struct PinWords {
+  static constexpr std::uint32_t high(std::uint32_t pins) { return pins; }
+  static constexpr std::uint32_t low(std::uint32_t pins) { return pins << 16; }
+};
+/// Where DMA does not reach the ports: for the outputs of a timer, which its mode forces (CCMR of the STM32's
+/// timers: 5 is high, 4 low, 0 leaves an output as it is). pins: the lowest bit of a channel's mode.
+struct ForcedWords {
+  static constexpr std::uint32_t kChannel1 = 1u << 4;
+  static constexpr std::uint32_t high(std::uint32_t pins) { return 5 * pins; }
+  static constexpr std::uint32_t low(std::uint32_t pins) { return 4 * pins; }
+};
+
+/// Two frames of every port: one is put out while the other is filled. PortWords: what a word does.
+template <std::size_t kPorts, typename PortWords = PinWords>
 class StepFrames {
  public:
+  using Words = PortWords;
   /// Empties the half that is to be filled; what the frame before has begun goes on in it.
   void begin(std::size_t half) {
     half_ = half;
@@ -77,13 +90,13 @@ class StepFrames {
    public:
     explicit Lane(StepFrames& frames, std::size_t port)
         : frames_(frames), port_(port), words_(frames.ports_[port].words.data() + frames.half_ * kSlots) {}
-    /// A pulse that begins kSetUp after `slot`; pins: in the lower half. mark() has to follow.
+    /// A pulse that begins kSetUp after `slot`; pins: as Words has them. mark() has to follow.
     [[gnu::always_inline]] void pulse(int slot, std::uint32_t pins) {
       if (slot < kEarly) [[likely]] {
         early_pulse(slot, pins);
       } else {
-        frames_.put(port_, slot + kSetUp, pins);
-        frames_.put(port_, slot + kSetUp + kPulse, pins << 16);
+        frames_.put(port_, slot + kSetUp, Words::high(pins));
+        frames_.put(port_, slot + kSetUp + kPulse, Words::low(pins));
       }
     }
 
@@ -91,8 +104,8 @@ class StepFrames {
     [[gnu::always_inline]] void early_pulse(int slot, std::uint32_t pins) {
       std::uint32_t* word = words_ + slot;
       asm("" : "+r"(word));  // one address for both: the compiler would reckon two
-      word[kSetUp] |= pins;
-      word[kSetUp + kPulse] |= pins << 16;
+      word[kSetUp] |= Words::high(pins);
+      word[kSetUp + kPulse] |= Words::low(pins);
     }
 
    private:

@@ -84,21 +84,23 @@ void draw_legend(Document& svg, double y) {
   }
 }
 
-/// What the program of the heat node makes of the EBB's pins: its own come in the others' place.
-constexpr auto kEbbHeatPins = [] {
-  constexpr std::size_t kMore = std::size_t{3};  // SPI2
+/// What a program makes of the EBB's pins: its own come in the others' place. kMore: that have none there.
+template <std::size_t kMore, std::size_t kOwn>
+constexpr auto ebb_pins_with(const std::array<Pin, kOwn>& own) {
   std::array<Pin, ebb::kPins.size() + kMore> all{};
   std::size_t count = 0;
   for (const Pin& pin : ebb::kPins) all[count++] = pin;
-  for (const Pin& mine : ebb::kHeatPins) {
+  for (const Pin& mine : own) {
     std::size_t at = 0;
     while (at < count && (all[at].port != mine.port || all[at].number != mine.number)) ++at;
     all[at] = mine;
     if (at == count) ++count;
   }
   return all;
-}();
-static_assert(stm32::pins_differ(kEbbHeatPins));
+}
+constexpr auto kEbbAxisPins = ebb_pins_with<0>(ebb::kAxisPins);
+constexpr auto kEbbHeatPins = ebb_pins_with<3>(ebb::kHeatPins);  // SPI2's
+static_assert(stm32::pins_differ(kEbbAxisPins) && stm32::pins_differ(kEbbHeatPins));
 
 constexpr std::array kPages{
     WiringPage{"f405", "node_firmware/port/stm32f405", "wiring.svg", "The dual-stepper board: STM32F405RG",
@@ -108,7 +110,7 @@ constexpr std::array kPages{
                "From board.hpp  Arrows point out of the chip or into it.", octopus::kPins},
     WiringPage{"ebb", "node_firmware/port/stm32g0b1_ebb", "wiring.svg",
                "BTT EBB36, EBB42 v1.1, v1.2: STM32G0B1CB, the extruder's axis",
-               "From board.hpp  Arrows point out of the chip or into it.", ebb::kPins},
+               "From board.hpp  Arrows point out of the chip or into it.", kEbbAxisPins},
     WiringPage{"ebb-heat", "node_firmware/port/stm32g0b1_ebb", "wiring_heat.svg",
                "BTT EBB36, EBB42 v1.1, v1.2: STM32G0B1CB, the heat node",
                "From board.hpp  Arrows point out of the chip or into it.", kEbbHeatPins},

@@ -21,6 +21,7 @@ EbbBoard::EbbBoard(const ElfImage& image, const BoardOptions& options, std::uint
       spi2_(cpu_.nvic(), 26, kClockCycles, accelerometer_, true, kClockParts) {
   map(0x40003800, 0x400, spi2_, kSpi2Clock);
   for (GpioPort& port : ports_) port.on_change = [this](Cycle at) { on_pins(at); };
+  for (Timer* timer : {&tim16_, &tim17_}) timer->on_output = [this](Cycle at) { on_pins(at); };
   usart2_.on_output = [this](Cycle at) { look_at_wire(at); };
   driver_.on_step = [this](bool direction, Cycle at) { tmc_.on_step(direction, at); };
   // A divider to 3.3 V.
@@ -105,6 +106,13 @@ void EbbBoard::on_pins(Cycle now) {
   const auto high = [&](const stm32::OutputPin& pin) {
     return ports_[static_cast<std::size_t>(pin.port)].output_high(pin.number);
   };
+  // PD0 is TIM16's channel 1, PD1 TIM17's, both by function 2.
+  const auto timed = [&](const stm32::OutputPin& pin, const Timer& timer) {
+    constexpr int kTimers = 2;
+    const GpioPort& port = ports_[static_cast<std::size_t>(pin.port)];
+    const bool alternate = port.mode(pin.number) == GpioPort::Mode::kAlternate;
+    return alternate ? port.alternate(pin.number) == kTimers && timer.output_high() : high(pin);
+  };
   // A pin that nobody drives leaves the driver disabled: pulled up on the board.
   const GpioPort& port = ports_[static_cast<std::size_t>(ebb::kEnable.port)];
   const bool enabled = port.mode(ebb::kEnable.number) == GpioPort::Mode::kOutput && !high(ebb::kEnable);
@@ -115,7 +123,7 @@ void EbbBoard::on_pins(Cycle now) {
   heated_.set_power(high(ebb::kHeater), false, now);
   tmc_.on_enable(enabled);
   look_at_wire(now);
-  driver_.on_pins(high(ebb::kStep), high(ebb::kDirection), enabled, now);
+  driver_.on_pins(timed(ebb::kStep, tim16_), timed(ebb::kDirection, tim17_), enabled, now);
 }
 
 }  // namespace kinebus::emulator

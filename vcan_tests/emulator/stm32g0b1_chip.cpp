@@ -38,6 +38,7 @@ Stm32g0b1Chip::Stm32g0b1Chip(const ElfImage& image, const BoardOptions& options,
       exti_(cpu_.nvic()),
       tim2_(cpu_.nvic(), {.update_irq = 15, .cycles_per_tick = kCycles, .advanced = false, .ticks = kClocks}),
       tim1_(cpu_.nvic(), {.update_irq = 13, .break_irq = 13, .cycles_per_tick = kCycles, .ticks = kClocks}),
+      tim16_(cpu_.nvic(), {.cycles_per_tick = kCycles, .ticks = kClocks}),
       tim17_(cpu_.nvic(), {.cycles_per_tick = kCycles, .ticks = kClocks}),
       usart2_(kCycles, kClocks),
       dma_(cpu_.nvic()),
@@ -51,6 +52,7 @@ Stm32g0b1Chip::Stm32g0b1Chip(const ElfImage& image, const BoardOptions& options,
   map(0x4000B400, 0x800, can_memory_, apb1(12));
   map(0x40012400, 0x400, adc_, apb2(20));
   map(0x40012C00, 0x400, tim1_, apb2(11));
+  map(0x40014400, 0x400, tim16_, apb2(17));
   map(0x40014800, 0x400, tim17_, apb2(18));
   map(0x40015800, 0x400, debug_, apb1(27));
   map(0x40020000, 0xC00, dma_, ahb(0));
@@ -99,6 +101,7 @@ void Stm32g0b1Chip::reset_chip(Rcc::ResetCause cause, Cycle now) {
   exti_.reset();
   tim2_.reset(now);
   tim1_.reset(now);
+  tim16_.reset(now);
   tim17_.reset(now);
   usart2_.reset();
   adc_.reset();
@@ -110,6 +113,7 @@ void Stm32g0b1Chip::reset_chip(Rcc::ResetCause cause, Cycle now) {
 void Stm32g0b1Chip::advance_chip(Cycle now) {
   tim2_.advance(now);
   tim1_.advance(now);
+  tim16_.advance(now);
   tim17_.advance(now);
   usart2_.advance(now);
   adc_.advance(now);

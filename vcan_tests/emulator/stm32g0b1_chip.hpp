@@ -41,7 +41,7 @@ class Stm32g0b1Chip : public Chip {
   g0::Flash flash_;
   std::array<GpioPort, 6> ports_;
   g0::Exti exti_;
-  Timer tim2_, tim1_, tim17_;
+  Timer tim2_, tim1_, tim16_, tim17_;
   g0::Usart usart2_;
   g0::Adc adc_;
   g0::Dma dma_;
@@ -62,8 +62,8 @@ class Stm32g0b1Chip : public Chip {
   void reset_chip(Rcc::ResetCause cause, Cycle now) override;
   void advance_chip(Cycle now) override;
   Cycle next_of_chip() const override {
-    return std::min({tim2_.next_event(), tim1_.next_event(), tim17_.next_event(), usart2_.next_event(),
-                     adc_.next_event(), can_.next_event()});
+    return std::min({tim2_.next_event(), tim1_.next_event(), tim16_.next_event(), tim17_.next_event(),
+                     usart2_.next_event(), adc_.next_event(), can_.next_event()});
   }
   bool live(const Rcc::Clock& clock, Cycle now) override { return rcc_.live(clock, now); }
   void after_write(Peripheral& written) override;

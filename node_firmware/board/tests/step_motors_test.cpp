@@ -12,14 +12,14 @@ namespace {
 using namespace std::chrono_literals;
 
 struct FakeStepStage {
-  static constexpr std::size_t kPorts = 1;
+  using Frames = step::StepFrames<1>;
   static constexpr std::array<StepPins, 2> kPins{{{0, 0, 1, 2}, {0, 0, 4, 8}}};
   static constexpr int kStepBits = 4;
   static constexpr PlanSize kPlan{};
-  static inline const step::StepFrames<1>* frames = nullptr;
+  static inline const Frames* frames = nullptr;
   static inline std::array<bool, 2> enabled{};
 
-  PlanCounts start(const step::StepFrames<kPorts>& given) {
+  PlanCounts start(const Frames& given) {
     frames = &given;
     return fake::Counter::now;
   }

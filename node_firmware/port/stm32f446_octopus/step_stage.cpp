@@ -21,7 +21,7 @@ std::uint32_t address_of(const volatile void* place) {
 
 }  // namespace
 
-PlanCounts StepPort::start(const step::StepFrames<kPorts>& frames) {
+PlanCounts StepPort::start(const Frames& frames) {
   enable_clock(rcc().AHB1ENR, Rcc::kDma2);
   enable_clock(rcc().APB2ENR, Rcc::kTim1);
   Timer& t = tim1();

@@ -17,6 +17,7 @@ namespace kinebus::stm32 {
 class StepPort {
  public:
   static constexpr std::size_t kPorts = 5;
+  using Frames = step::StepFrames<kPorts>;
   static constexpr std::array<Port, kPorts> kGpio{Port::F, Port::G, Port::C, Port::E, Port::A};
   static constexpr int kStepBits = octopus::kStepBits;
   static constexpr PlanSize kPlan{.pieces = MotionPlan::kPieces, .fresh = MotionPlan::kPieces / 2};
@@ -36,7 +37,7 @@ class StepPort {
     return p.step_port < kPorts && p.direction_port < kPorts;
   }));
 
-  PlanCounts start(const step::StepFrames<kPorts>& frames);
+  PlanCounts start(const Frames& frames);
   static PlanCounts counts() { return local_counts(); }
   static void acknowledge_control() { dma2().clear(1); }
   static void enable(int axis, bool on) {

@@ -52,6 +52,11 @@ inline constexpr std::array kPins = {
   Pin{B, 12, kOutput,    kUp,    0, true,  "ADXL345 select, active low"},
   Pin{D,  3, kOutput,    kDown,  0, false, "RGB"},
 };
+// What the program of the axis has otherwise, once its timers hold both low.
+inline constexpr std::array kAxisPins = {
+  Pin{D,  0, kAlternate, kNone,  2, false, "step (TIM16_CH1)"},
+  Pin{D,  1, kAlternate, kNone,  2, false, "direction (TIM17_CH1)"},
+};
 // What the program of the heat node has otherwise.
 inline constexpr std::array kHeatPins = {
   Pin{B,  9, kAlternate, kDown,  2, false, "PROBE servo (TIM17_CH1)"},

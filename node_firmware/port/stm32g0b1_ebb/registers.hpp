@@ -39,8 +39,9 @@ struct Rcc {
   static constexpr std::uint32_t gpio_clock(stm32::Port port) { return bit(static_cast<int>(port)); }
   static constexpr std::uint32_t kDma1 = bit(0);  // AHBENR
   static constexpr std::uint32_t kTim2 = bit(0), kCan = bit(12), kSpi2 = bit(14), kUsart2 = bit(17),
-                                 kDebug = bit(27);                                   // APBENR1
-  static constexpr std::uint32_t kTim1 = bit(11), kTim17 = bit(18), kAdc = bit(20);  // APBENR2
+                                 kDebug = bit(27);  // APBENR1
+  static constexpr std::uint32_t kTim1 = bit(11), kTim16 = bit(17), kTim17 = bit(18),
+                                 kAdc = bit(20);  // APBENR2
 };
 static_assert(offsetof(Rcc, IOPENR) == 0x34 && offsetof(Rcc, APBENR1) == 0x3C &&
               offsetof(Rcc, CCIPR2) == 0x58 && offsetof(Rcc, CSR) == 0x60);
@@ -92,6 +93,9 @@ inline Timer& tim1() {
 }
 inline Timer& tim2() {
   return peripheral<Timer>(0x4000'0000);
+}
+inline Timer& tim16() {
+  return peripheral<Timer>(0x4001'4400);
 }
 inline Timer& tim17() {
   return peripheral<Timer>(0x4001'4800);
@@ -148,8 +152,8 @@ struct Dma {
   static constexpr std::uint32_t kEnable = bit(0), kOnComplete = bit(1), kOnHalf = bit(2),
                                  kFromMemory = bit(4), kCircular = bit(5), kMemoryIncrement = bit(7),
                                  kPeripheralWords = 2u << 8, kMemoryWords = 2u << 10,
-                                 kPriorityHighest = 3u << 12;  // CCR
-  static constexpr std::uint32_t kAllOfChannel1 = 0xF;         // IFCR
+                                 kPriorityHighest = 3u << 12;                                   // CCR
+  static constexpr std::uint32_t all_of(std::size_t channel) { return 0xFu << (4 * channel); }  // IFCR
 };
 inline Dma& dma1() {
   return peripheral<Dma>(0x4002'0000);
@@ -157,7 +161,7 @@ inline Dma& dma1() {
 /// Which request each DMA channel serves: [0] is DMA1's channel 1.
 struct DmaMux {
   Reg CCR[12];
-  static constexpr std::uint32_t kTim1Channel1 = 20, kUsart2Receive = 52;
+  static constexpr std::uint32_t kTim1Channel1 = 20, kTim1Channel2 = 21, kUsart2Receive = 52;
 };
 inline DmaMux& dma_mux() {
   return peripheral<DmaMux>(0x4002'0800);

@@ -1,7 +1,8 @@
 #pragma once
-// Step and direction pins of the extruder's driver. TIM1 counts microseconds; its compare event 1 asks DMA1's
-// channel 1 for a word, which it writes to port D's BSRR, round and round two frames. No instruction takes
-// part in an edge.
+// Step and direction pins of the extruder's driver: the outputs of TIM16 and TIM17, for DMA does not reach
+// this chip's ports. TIM1 counts microseconds; its compare events 1 and 2 ask DMA1's channels 1 and 3 for a
+// word each, which forces the output high or low or leaves it (CCMR1), round and round two frames. No
+// instruction takes part in an edge.
 
 #include <array>
 #include <cstdint>
@@ -15,18 +16,18 @@ namespace kinebus::g0b1 {
 
 class StepPort {
  public:
-  static constexpr std::size_t kPorts = 1;
+  static constexpr std::size_t kPorts = 2;  ///< steps, directions
+  using Frames = step::StepFrames<kPorts, step::ForcedWords>;
   static constexpr int kStepBits = ebb::kStepBits;
   /// A pass of the main loop may take 5.6 ms.
   static constexpr PlanSize kPlan{.pieces = MotionPlan::kPieces, .fresh = 5, .axes = 1};
   /// Axis B is not there.
   static constexpr std::array<StepPins, kAxesPerNode> kPins{
-      {{0, 0, bit(ebb::kStep.number), bit(ebb::kDirection.number)}, {}}};
-  static_assert(ebb::kStep.port == stm32::Port::D && ebb::kDirection.port == stm32::Port::D);
+      {{0, 1, step::ForcedWords::kChannel1, step::ForcedWords::kChannel1}, {}}};
 
-  PlanCounts start(const step::StepFrames<kPorts>& frames);
+  PlanCounts start(const Frames& frames);
   static PlanCounts counts() { return local_counts(); }
-  static void acknowledge_control() { dma1().IFCR = Dma::kAllOfChannel1; }
+  static void acknowledge_control() { dma1().IFCR = Dma::all_of(0); }
   static void enable(int axis, bool on) {
     if (axis == 0) write(ebb::kEnable, !on);
   }

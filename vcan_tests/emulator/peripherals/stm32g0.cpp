@@ -15,6 +15,12 @@ constexpr Cycle kProgramTime = kCoreHz / 1'000'000 * 125, kEraseTime = kCoreHz /
 constexpr std::uint32_t kLock = 1u << 31, kBusy = 1u << 16;
 constexpr std::uint32_t kProgramError = 1u << 3, kAlignmentError = 1u << 5, kSizeError = 1u << 6,
                         kSequenceError = 1u << 7;
+// RM0444, bus matrix: behind the processor's single-cycle bus.
+constexpr std::uint32_t kIoPorts = 0x50000000, kIoPortsEnd = 0x50001800;
+
+bool of_io_ports(std::uint32_t address) {
+  return address >= kIoPorts && address < kIoPortsEnd;
+}
 
 }  // namespace
 
@@ -259,16 +265,18 @@ void Dma::on_request(std::uint32_t line, Cycle at) {
     constexpr std::uint32_t kKind = 0x4FD0, kWordsOut = 0xA90, kBytesIn = 0x80;
     if ((c.ccr & 1) == 0 || (c.request & 0x7F) != line) continue;
     const std::uint32_t kind = c.ccr & kKind, done = c.cndtr - c.left;
+    const std::uint32_t memory = c.cmar + (kind == kBytesIn ? done : 4 * done);
     if (kind == kBytesIn && c.left == 0) continue;
-    if ((kind != kWordsOut && kind != kBytesIn) || c.left == 0) {
-      flags_ |= 8u << (4 * i);
+    if ((kind != kWordsOut && kind != kBytesIn) || c.left == 0 || of_io_ports(c.cpar) ||
+        of_io_ports(memory)) {
+      flags_ |= 9u << (4 * i);
       c.ccr &= ~1u;
       continue;
     }
     if (kind == kBytesIn)
-      keep(c.cmar + done, take(c.cpar, at));
+      keep(memory, take(c.cpar, at));
     else
-      put(c.cpar, fetch(c.cmar + 4 * done), at);
+      put(c.cpar, fetch(memory), at);
     --c.left;
     if (c.left == c.cndtr / 2) flags_ |= 5u << (4 * i);
     if (c.left == 0) {

@@ -78,7 +78,7 @@ class Flash final : public Peripheral {
 };
 
 /// DMA1 with its channels 1 to 7, and the DMAMUX: words from memory to a peripheral, bytes from one to
-/// memory.
+/// memory. The ports' pins it does not reach: they hang on the processor's own bus.
 class Dma final : public Peripheral {
  public:
   static constexpr int kChannels = 7;

@@ -18,8 +18,10 @@ void Timer::reset(Cycle now) {
   ccmr_ = {};
   ccr_ = ccr_in_force_ = {};
   psc_in_force_ = repetitions_left_ = frozen_count_ = 0;
+  forced_high_ = false;
   find_next_event();
   update_lines();
+  look_at_output(now);
 }
 
 Cycle Timer::sweep_length() const {
@@ -101,6 +103,7 @@ void Timer::update_event(Cycle now, bool sets_flag) {
   ccr_in_force_ = ccr_;
   repetitions_left_ = rcr_ & 0xFF;
   if ((bdtr_ & kAutomatic) != 0 && !break_active()) bdtr_ |= kMainOutput;
+  look_at_output(now);
   if (sets_flag) {
     sr_ |= kUpdateFlag;
     update_lines();
@@ -114,6 +117,17 @@ void Timer::update_lines() {
   if (setup_.break_irq >= 0) lines_.set_line(setup_.break_irq, (sr_ & dier_ & kBreakFlag) != 0);
 }
 
+bool Timer::output_high() const {
+  const bool on = (ccer_ & 1) != 0 && (!setup_.advanced || (bdtr_ & kMainOutput) != 0);
+  return on && forced_high_ != ((ccer_ & 2) != 0);
+}
+
+void Timer::look_at_output(Cycle now) {
+  if (output_high() == was_high_) return;
+  was_high_ = !was_high_;
+  if (on_output) on_output(now);
+}
+
 bool Timer::break_active() const {
   return (bdtr_ & kBreakEnable) != 0 && break_high_ == ((bdtr_ & kBreakHigh) != 0);
 }
@@ -123,6 +137,7 @@ void Timer::trip(Cycle now) {
   bdtr_ &= ~kMainOutput;
   sr_ |= kBreakFlag;
   update_lines();
+  look_at_output(now);
 }
 
 void Timer::set_break_level(bool high, Cycle now) {
@@ -218,9 +233,14 @@ void Timer::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
       }
       if ((value & 0x80) != 0) trip(now);
       break;
-    case 0x18:
+    case 0x18: {
       ccmr_[0] = value;
+      // An output, and its mode is not kept back for a commutation, which does not come here.
+      const std::uint32_t mode = value >> 4 & 0x1007;
+      const bool at_once = (value & 3) == 0 && (cr2_ & 1) == 0;
+      if (at_once && (mode == 4 || mode == 5)) forced_high_ = mode == 5;
       break;
+    }
     case 0x1C:
       ccmr_[1] = value;
       break;
@@ -269,6 +289,7 @@ void Timer::write(std::uint32_t offset, std::uint32_t value, Cycle now) {
   }
   find_next_event();
   update_lines();
+  look_at_output(now);
 }
 
 }  // namespace kinebus::emulator

@@ -1,7 +1,7 @@
 #pragma once
 // TIM1 and TIM8 as centre-aligned PWM with preload, repetition counter, main output enable and break input;
 // TIM2 as a free-running time base. The count is a formula of time; only updates are events, and compares of
-// a counter upwards that ask a DMA controller for a word.
+// a counter upwards that ask a DMA controller for a word. Channel 1's output in its forced modes.
 
 #include <algorithm>
 #include <array>
@@ -38,12 +38,15 @@ class Timer final : public Peripheral {
   };
   Sweep sweep() const;
   bool running() const { return (cr1_ & 1) != 0; }
+  /// Channel 1's pin, as a forced mode drives it or has left it; a channel that is off: false.
+  bool output_high() const;
 
   /// The level on the break input: at the active one (BDTR.BKP) outputs go off in hardware, at once.
   void set_break_level(bool high, Cycle now);
   bool break_armed() const { return (bdtr_ >> 12 & 1) != 0; }
 
   std::function<void(Cycle)> on_trigger;  ///< TRGO by update
+  std::function<void(Cycle)> on_output;   ///< output_high() is another one
   /// A compare event of that channel, or 0: an update, whose DMA request is on (DIER).
   std::function<void(int channel, Cycle)> on_request;
   std::function<void(Cycle)> before_change;  ///< outputs change at that time: whoever follows them catches up
@@ -63,6 +66,7 @@ class Timer final : public Peripheral {
   void serve_compares(Cycle now);
   void update_event(Cycle now, bool sets_flag);
   void update_lines();
+  void look_at_output(Cycle now);
 
   InterruptLines& lines_;
   TimerSetup setup_;
@@ -76,6 +80,7 @@ class Timer final : public Peripheral {
   std::array<bool, 4> compared_{};    // in this sweep
   std::uint32_t count_at_begin_ = 0;  // where this sweep started (CNT written, or 0)
   bool up_ = true;
+  bool forced_high_ = false, was_high_ = false;
   std::uint32_t frozen_count_ = 0;
   bool break_active() const;
   void trip(Cycle now);

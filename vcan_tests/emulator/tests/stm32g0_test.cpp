@@ -8,6 +8,7 @@
 #include "vcan_tests/emulator/peripherals/stm32g0.hpp"
 #include "vcan_tests/emulator/peripherals/stm32g0_adc.hpp"
 #include "vcan_tests/emulator/peripherals/stm32g0_usart.hpp"
+#include "vcan_tests/emulator/peripherals/timer.hpp"
 
 namespace kinebus::emulator {
 namespace {
@@ -262,6 +263,99 @@ TEST_F(G0Usart, DmaKeepsWhatItHears) {
   EXPECT_EQ(kept, (std::vector<std::uint8_t>{1, 2, 0, 0}));
   EXPECT_EQ(dma.read(8 + 20 + 4, 0), 0u);
   EXPECT_EQ(usart.read(kIsr, 0) & 0x20, 0x20u) << "the third is left";
+}
+
+struct G0Dma : testing::Test {
+  static constexpr std::uint32_t kIsr = 0x00, kCcr = 0x08, kCndtr = 0x0C, kCpar = 0x10, kCmar = 0x14,
+                                 kRequest = 0x800, kLine = 20;
+  static constexpr std::uint32_t kWordsOut = 0xA91, kBytesIn = 0x81, kOnError = 8, kFailed = 9;
+  G0Dma() {
+    dma.fetch = [](std::uint32_t address) { return address; };
+    dma.put = [this](std::uint32_t address, std::uint32_t, Cycle) { written.push_back(address); };
+    dma.take = [](std::uint32_t, Cycle) { return std::uint8_t{1}; };
+    dma.keep = [this](std::uint32_t address, std::uint8_t) { written.push_back(address); };
+  }
+  void transfer(std::uint32_t ccr, std::uint32_t peripheral, std::uint32_t memory) {
+    dma.write(4, kFailed, 0);
+    dma.write(kRequest, kLine, 0);
+    dma.write(kCcr, 0, 0);
+    dma.write(kCndtr, 2, 0);
+    dma.write(kCpar, peripheral, 0);
+    dma.write(kCmar, memory, 0);
+    dma.write(kCcr, ccr, 0);
+    dma.on_request(kLine, 0);
+  }
+  G0Lines lines;
+  g0::Dma dma{lines};
+  std::vector<std::uint32_t> written;
+};
+
+TEST_F(G0Dma, DoesNotReachThePorts) {
+  constexpr std::uint32_t kMemory = 0x20000000, kTimer = 0x40014418, kPorts = 0x50000000, kLast = 0x500017FC;
+  for (const auto& [ccr, peripheral, memory] : {std::tuple{kWordsOut, kPorts + 0xC18, kMemory},
+                                                {kWordsOut, kPorts, kMemory},
+                                                {kWordsOut, kLast, kMemory},
+                                                {kWordsOut, kTimer, kPorts + 0x10},
+                                                {kBytesIn, kPorts + 0x10, kMemory},
+                                                {kBytesIn, kTimer, kPorts + 0x14}}) {
+    transfer(ccr | kOnError, peripheral, memory);
+    EXPECT_EQ(dma.read(kIsr, 0), kFailed) << std::hex << peripheral;
+    EXPECT_EQ(dma.read(kCcr, 0) & 1, 0u) << "off";
+    EXPECT_EQ(dma.read(kCndtr, 0), 2u);
+    EXPECT_TRUE(lines.level[9]);
+  }
+  EXPECT_TRUE(written.empty());
+  transfer(kWordsOut, kTimer, kMemory);
+  EXPECT_EQ(written, (std::vector{kTimer})) << "a timer it does";
+  EXPECT_EQ(dma.read(kIsr, 0) & 8, 0u);
+}
+
+/// A timer's channel 1, as TIM16 has it.
+struct G0ForcedOutput : testing::Test {
+  static constexpr std::uint32_t kCr2 = 0x04, kCcmr1 = 0x18, kCcer = 0x20, kBdtr = 0x44;
+  static constexpr std::uint32_t kFrozen = 0, kLow = 0x40, kHigh = 0x50, kMainOutput = 1u << 15;
+  G0ForcedOutput() {
+    timer.on_output = [this](Cycle at) { edges.emplace_back(at, timer.output_high()); };
+  }
+  void mode(std::uint32_t value, Cycle at) { timer.write(kCcmr1, value, at); }
+  G0Lines lines;
+  Timer timer{lines, {.cycles_per_tick = 21, .ticks = 8}};
+  std::vector<std::pair<Cycle, bool>> edges;
+};
+
+TEST_F(G0ForcedOutput, FollowsItsModeAndStaysAsItWasWhenFrozen) {
+  timer.write(kCcer, 1, 0);
+  timer.write(kBdtr, kMainOutput, 0);
+  mode(kHigh, 10);
+  mode(kFrozen, 20);
+  EXPECT_TRUE(timer.output_high());
+  mode(kHigh, 30);
+  mode(kLow, 40);
+  mode(kFrozen, 50);
+  EXPECT_FALSE(timer.output_high());
+  EXPECT_EQ(edges, (std::vector<std::pair<Cycle, bool>>{{10, true}, {40, false}}));
+}
+
+TEST_F(G0ForcedOutput, NeedsItsChannelAndTheMainOutputAndNoOtherMode) {
+  mode(kHigh, 0);
+  EXPECT_FALSE(timer.output_high());
+  timer.write(kCcer, 1, 1);
+  EXPECT_FALSE(timer.output_high());
+  timer.write(kBdtr, kMainOutput, 2);
+  EXPECT_TRUE(timer.output_high());
+  timer.write(kBdtr, 0, 3);
+  EXPECT_FALSE(timer.output_high());
+  timer.write(kBdtr, kMainOutput, 4);
+  timer.write(kCcer, 3, 5);
+  EXPECT_FALSE(timer.output_high()) << "the other polarity";
+  timer.write(kCcer, 1, 6);
+  mode(kLow, 7);
+  mode(kHigh | 1u << 16, 8);
+  mode(kHigh | 1, 9);
+  EXPECT_FALSE(timer.output_high()) << "a mode of another kind, and an input";
+  timer.write(kCr2, 1, 10);
+  mode(kHigh, 11);
+  EXPECT_FALSE(timer.output_high()) << "kept back until a commutation";
 }
 
 }  // namespace
