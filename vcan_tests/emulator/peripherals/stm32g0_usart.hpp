@@ -39,7 +39,7 @@ class Usart final : public Peripheral {
   bool on(std::uint32_t bits) const { return (cr1_ & (bits | 1)) == (bits | 1); }
   std::size_t room() const { return (cr1_ >> 29 & 1) != 0 ? kFifo : 1; }
   Cycle after(Cycle from, std::uint32_t half_bits) const {
-    return from + half_bits * brr_ * cycles_ / (2 * ticks_);
+    return from + half_bits * Cycle{brr_} * cycles_ / (2 * ticks_);
   }
   void next_bit();
   void sample();
