@@ -121,7 +121,11 @@ BringUp::Outcome BringUp::on_time(BusTime now) {
   if (foreign_)
     fail(AlarmCode::kSecondGateway, 0,
          say("another gateway speaks on this bus (SYNC, stamps or heartbeat of node 127)"));
-  for (const NodeLink& link : links_) {
+  for (NodeLink& link : links_) {
+    if (link.take_two_states())
+      fail(AlarmCode::kIdTaken, link.id(),
+           say("two nodes use the id %1: one says that it is operational, the other that it is not",
+               link.id()));
     if (link.serial_numbers().size() < 2) continue;
     fail(AlarmCode::kIdTaken, link.id(),
          say("two nodes use the id %1: those with the serial numbers %2 and %3", link.id(),

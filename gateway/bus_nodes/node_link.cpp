@@ -20,7 +20,7 @@ bool NodeLink::on_frame(BusTime now, const CanFrame& frame) {
   if (frame.extended || frame.remote) return false;
   if (const auto heartbeat = decode_heartbeat(frame)) {
     if (heartbeat->node != id_) return false;
-    nmt_state_ = heartbeat->state;
+    note_state(heartbeat->state);
     if (nmt_state_ == NmtState::kInitialising) {
       booted_ = true;
       following_error_.reset();
@@ -38,6 +38,23 @@ bool NodeLink::on_frame(BusTime now, const CanFrame& frame) {
   heard_ = true;
   last_heard_ = now;
   return true;
+}
+
+void NodeLink::on_nmt(const CanFrame& frame) {
+  if (decode_nmt(frame, id_)) was_operational_ = left_operation_ = false;
+}
+
+void NodeLink::note_state(NmtState state) {
+  nmt_state_ = state;
+  if (state == NmtState::kOperational) {
+    two_states_ = two_states_ || left_operation_;
+    was_operational_ = true;
+    left_operation_ = false;
+  } else {
+    // After a boot-up it is another's command that brings it into operation.
+    left_operation_ = state != NmtState::kInitialising && (was_operational_ || left_operation_);
+    was_operational_ = false;
+  }
 }
 
 /// The PDOs of a pair of axes.
@@ -119,7 +136,7 @@ std::optional<CanFrame> NodeLink::next_frame(BusTime now) {
 }
 
 void NodeLink::forget() {
-  heard_ = booted_ = drive_heard_ = control_due_ = false;
+  heard_ = booted_ = drive_heard_ = control_due_ = was_operational_ = left_operation_ = false;
   nmt_state_ = NmtState::kInitialising;
   statusword_ = control_ = {};
   mode_ = wanted_mode_ = {};

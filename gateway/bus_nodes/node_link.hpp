@@ -29,6 +29,8 @@ class NodeLink {
 
   /// Takes a frame of this node; false: it is not one, or none that is understood.
   bool on_frame(BusTime now, const CanFrame& frame);
+  /// An NMT command on the bus, this gateway's own or another device's: a node may be in another state now.
+  void on_nmt(const CanFrame& frame);
   void on_time(BusTime now) { sdo_.on_time(now); }
   /// Controlwords first, then SDO.
   std::optional<CanFrame> next_frame(BusTime now);
@@ -61,6 +63,9 @@ class NodeLink {
   bool take_boot_up() { return std::exchange(booted_, false); }
   /// Serial numbers that were told since forget(): a second one is another node's with the same id.
   const std::vector<std::uint32_t>& serial_numbers() const { return serial_numbers_; }
+  /// Two of one id, once: it was operational, then not, then again, and nobody has commanded it. forget()
+  /// keeps it: it is the next bring-up that says so.
+  bool take_two_states() { return std::exchange(two_states_, false); }
   std::optional<Emergency> next_emergency();
   /// The status frame that came last, once.
   std::optional<StreamStatus> take_stream() { return std::exchange(new_stream_, std::nullopt); }
@@ -94,6 +99,7 @@ class NodeLink {
  private:
   bool on_axis_frame(BusTime now, const CanFrame& frame);
   void on_status_words(const CanFrame& frame);
+  void note_state(NmtState state);
   void note_serial_number(const CanFrame& reply);
 
   std::uint8_t id_;
@@ -104,6 +110,9 @@ class NodeLink {
   bool heard_ = false, booted_ = false, drive_heard_ = false, control_due_ = false;
   BusTime last_heard_{0}, drive_told_{0};
   NmtState nmt_state_ = NmtState::kInitialising;
+  // Since the last command, reset or boot-up.
+  bool was_operational_ = false, left_operation_ = false;
+  bool two_states_ = false;
   std::array<std::uint16_t, 2> statusword_{}, control_{};
   std::array<std::int8_t, 2> mode_{}, wanted_mode_{};
   std::uint32_t inputs_ = 0;

@@ -97,6 +97,8 @@ void Gateway::Core::on_frame(BusTime when, const CanFrame& frame) {
     return;
   }
   parameters_.on_frame(when, frame);
+  if (frame.id == cob_id::kNmt)
+    for (NodeLink& link : links_) link.on_nmt(frame);
   const ForeignFrame foreign = look_at_foreign(frame, links_);
   if (foreign.kind == ForeignFrame::Kind::kRecord || foreign.kind == ForeignFrame::Kind::kOrder)
     return on_foreign_command(foreign);
@@ -177,6 +179,8 @@ void Gateway::Core::on_frame_sent(BusTime when, const CanFrame& frame) {
   ++counters_.frames_sent;
   voice_.on_frame_sent(when, frame);
   rate_.on_frame_sent(when, frame);
+  if (frame.id == cob_id::kNmt)
+    for (NodeLink& link : links_) link.on_nmt(frame);
 }
 
 std::optional<CanFrame> Gateway::Core::next_frame(BusTime now) {

@@ -4832,6 +4832,10 @@
         <source>one of the two tables</source>
         <translation>یکی از دو جدول</translation>
     </message>
+    <message>
+        <source>two nodes use the id %1: one says that it is operational, the other that it is not</source>
+        <translation>دو گره شناسهٔ %1 را به کار می‌برند: یکی می‌گوید در حال کار است و دیگری می‌گوید نیست</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>

@@ -4832,6 +4832,10 @@
         <source>one of the two tables</source>
         <translation>iki tablodan biri</translation>
     </message>
+    <message>
+        <source>two nodes use the id %1: one says that it is operational, the other that it is not</source>
+        <translation>iki düğüm %1 kimliğini kullanıyor: biri çalışır durumda olduğunu söylüyor, öteki olmadığını</translation>
+    </message>
 </context>
 <context>
     <name>GatewayWords</name>

@@ -65,6 +65,40 @@ TEST(MachineFaults, TwoNodesWithOneIdAreRefusedByTheirSerialNumbers) {
   EXPECT_TRUE(rig.reach(MachineState::kUnhomed, 30s)) << rig.story();
 }
 
+// One that answers no SDO has no serial number to be found by, and its heartbeat looks as if the machine's
+// own node had been taken out of operation.
+TEST(MachineFaults, ASecondNodeWithAnIdThatOnlyBeatsIsNamedByTheNextBringUp) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  rig.gateway->on_frame(rig.now, heartbeat_frame(NmtState::kPreOperational, 2));
+  ASSERT_TRUE(rig.reach(MachineState::kAlarm, 5s)) << rig.story();
+  rig.run_for(2s);  // the machine's own node is heard
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
+  ASSERT_TRUE(rig.run_until([&] { return rig.told(AlarmCode::kIdTaken); }, 5s)) << rig.story();
+  EXPECT_NE(rig.story().find("two nodes use the id 2: one says"), std::string::npos) << rig.story();
+  ASSERT_TRUE(rig.reach(MachineState::kAlarm, 5s)) << rig.story();
+  // Said once: without the other node the machine comes up.
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
+  EXPECT_TRUE(rig.reach(MachineState::kReady, 30s)) << rig.story();
+}
+
+// A node that somebody stops and starts again is one node.
+TEST(MachineFaults, ANodeThatIsStoppedAndStartedByCommandsIsNoSecondOne) {
+  MachineRig rig;
+  ASSERT_TRUE(rig.make_ready()) << rig.story();
+  rig.gateway->on_frame(rig.now, nmt_frame(NmtCommand::kEnterPreOperational, 2));
+  rig.gateway->on_frame(rig.now, heartbeat_frame(NmtState::kPreOperational, 2));
+  ASSERT_TRUE(rig.reach(MachineState::kAlarm, 5s)) << rig.story();
+  rig.gateway->on_frame(rig.now, nmt_frame(NmtCommand::kStart, 2));
+  rig.run_for(2s);
+  ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+  ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
+  EXPECT_TRUE(rig.reach(MachineState::kReady, 30s)) << rig.story();
+  EXPECT_FALSE(rig.told(AlarmCode::kIdTaken)) << rig.story();
+}
+
 TEST(MachineFaults, AnotherGatewayOnTheBusIsNotJoined) {
   MachineRig rig;
   ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));

@@ -68,7 +68,9 @@ TEST(Campaign, SeedsThatOnceFailedAreGood) {
       {FaultKind::kFramesDropped, 7005638},   // a lost controlword of homing did not come again
       {FaultKind::kFramesDoubled, 7015024},   // three SDO transfers broken off, one after another
       {FaultKind::kSensorShorted, 1334081},   // on the way to where the job begins
-      {FaultKind::kSensorShorted, 4135174}};
+      {FaultKind::kSensorShorted, 4135174},
+      {FaultKind::kNodeIdCollision, 8001432},  // a silent second node was taken for an NMT command, for ever
+      {FaultKind::kNodeIdCollision, 8004357}};
   for (const auto& [kind, seed] : kOnceWrong) {
     const CampaignSummary summary =
         run_campaign({.first_seed = seed, .seeds = 1, .only = kind, .repeat_every = 0});
