@@ -149,7 +149,7 @@ TEST_F(OneNode, StatuswordTpdoComesWhenItChanges) {
 }
 
 TEST_F(OneNode, StoresParametersAndLoadsThemWhenItStartsAgain) {
-  node.on_frame(now, frame_of("601#2381600000F40100"));  // profile velocity 128000
+  node.on_frame(now, frame_of("601#23816000A0860100"));  // profile velocity 100,000, not what it comes with
   while (node.next_frame()) {
   }
   node.on_frame(now, frame_of("601#2310100173617665"));
@@ -164,7 +164,7 @@ TEST_F(OneNode, StoresParametersAndLoadsThemWhenItStartsAgain) {
   while (again.next_frame()) {
   }
   again.on_frame(now, frame_of("601#4081600000000000"));
-  EXPECT_EQ(text_of(*again.next_frame()), "581#4381600000F40100");
+  EXPECT_EQ(text_of(*again.next_frame()), "581#43816000A0860100");
 
   // A failing memory is said so.
   node.on_frame(now, frame_of("601#2310100173617665"));
