@@ -47,7 +47,7 @@ void NodeLink::on_nmt(const CanFrame& frame) {
 void NodeLink::note_state(NmtState state) {
   nmt_state_ = state;
   if (state == NmtState::kOperational) {
-    two_states_ = two_states_ || left_operation_;
+    if (left_operation_) returns_ = std::min(returns_ + 1, 2);
     was_operational_ = true;
     left_operation_ = false;
   } else {

@@ -63,9 +63,9 @@ class NodeLink {
   bool take_boot_up() { return std::exchange(booted_, false); }
   /// Serial numbers that were told since forget(): a second one is another node's with the same id.
   const std::vector<std::uint32_t>& serial_numbers() const { return serial_numbers_; }
-  /// Two of one id, once: it was operational, then not, then again, and nobody has commanded it. forget()
-  /// keeps it: it is the next bring-up that says so.
-  bool take_two_states() { return std::exchange(two_states_, false); }
+  /// Two of one id, once: it was operational, then not, then again, more than once (a single heartbeat may be
+  /// anybody's), and nobody has commanded it. forget() keeps it: it is the next bring-up that says so.
+  bool take_two_states() { return returns_ > 1 && std::exchange(returns_, 0) > 1; }
   std::optional<Emergency> next_emergency();
   /// The status frame that came last, once.
   std::optional<StreamStatus> take_stream() { return std::exchange(new_stream_, std::nullopt); }
@@ -112,7 +112,7 @@ class NodeLink {
   NmtState nmt_state_ = NmtState::kInitialising;
   // Since the last command, reset or boot-up.
   bool was_operational_ = false, left_operation_ = false;
-  bool two_states_ = false;
+  int returns_ = 0;  ///< into operation by itself
   std::array<std::uint16_t, 2> statusword_{}, control_{};
   std::array<std::int8_t, 2> mode_{}, wanted_mode_{};
   std::uint32_t inputs_ = 0;

@@ -73,6 +73,8 @@ TEST(MachineFaults, ASecondNodeWithAnIdThatOnlyBeatsIsNamedByTheNextBringUp) {
   rig.gateway->on_frame(rig.now, heartbeat_frame(NmtState::kPreOperational, 2));
   ASSERT_TRUE(rig.reach(MachineState::kAlarm, 5s)) << rig.story();
   rig.run_for(2s);  // the machine's own node is heard
+  rig.gateway->on_frame(rig.now, heartbeat_frame(NmtState::kPreOperational, 2));
+  rig.run_for(2s);
   ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
   ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
   ASSERT_TRUE(rig.run_until([&] { return rig.told(AlarmCode::kIdTaken); }, 5s)) << rig.story();
