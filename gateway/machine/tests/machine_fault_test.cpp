@@ -95,6 +95,10 @@ TEST(MachineFaults, ANodeThatIsStoppedAndStartedByCommandsIsNoSecondOne) {
   ASSERT_TRUE(rig.reach(MachineState::kAlarm, 5s)) << rig.story();
   rig.gateway->on_frame(rig.now, nmt_frame(NmtCommand::kStart, 2));
   rig.run_for(2s);
+  rig.gateway->on_frame(rig.now, nmt_frame(NmtCommand::kEnterPreOperational, 2));
+  rig.gateway->on_frame(rig.now, heartbeat_frame(NmtState::kPreOperational, 2));
+  rig.gateway->on_frame(rig.now, nmt_frame(NmtCommand::kStart, 2));
+  rig.run_for(2s);
   ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
   ASSERT_TRUE(rig.gateway->carry_out(command::BringUp{}));
   EXPECT_TRUE(rig.reach(MachineState::kReady, 30s)) << rig.story();
