@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstddef>
 #include <ctime>
 #include <string>
 #include <system_error>
@@ -17,6 +18,8 @@ namespace kinebus {
 namespace {
 /// However much was used: a stop is heard soon all the same.
 constexpr LocalTime kMostRest = std::chrono::milliseconds{20};
+/// Of the streams that are ready, in one turn.
+constexpr int kMostReady = 16;
 
 /// What the loop has had of the processor: while the host let it wait no client used it.
 LocalTime thread_time() {
@@ -88,13 +91,13 @@ bool StreamHub::time_left() {
   return now < work_until_;
 }
 
-/// Of the streams that are ready, 16 a turn; the kernel tells of the others in the next one. None is
-/// destroyed before on_time.
+/// Of the streams that are ready, 16 a turn. One is asked for at a time: the kernel puts who was told behind
+/// all others, and who is told when the turn's time is up would go there without having been served, again
+/// and again. None is destroyed before on_time.
 void StreamHub::on_some_ready() {
-  std::array<epoll_event, 16> ready{};
-  const int count = ::epoll_wait(epoll_, ready.data(), static_cast<int>(ready.size()), 0);
-  for (int i = 0; i < count; ++i) {
-    const epoll_event& event = ready[static_cast<std::size_t>(i)];
+  for (int i = 0; i < kMostReady && time_left(); ++i) {
+    epoll_event event{};
+    if (::epoll_wait(epoll_, &event, 1, 0) < 1) return;
     on_ready(*static_cast<Pair*>(event.data.ptr), event.events);
   }
 }
@@ -104,8 +107,6 @@ void StreamHub::on_ready(Pair& pair, std::uint32_t events) {
   // A stream that is not read now would report its end again and again.
   if ((events & (EPOLLHUP | EPOLLERR)) != 0 && !pair.session->wants_bytes())
     return close(pair, "the other side ended the connection");
-  // It is still ready in the next turn, and then among the first.
-  if (!time_left()) return;
   std::array<std::uint8_t, 65'536> buffer;
   std::size_t taken = 0;
   // Bytes may come in morsels, each a record of its own: those of a turn are bounded by its time, too.
@@ -179,7 +180,11 @@ void StreamHub::on_time(LocalTime now) {
   }
   first_ = count > 0 ? (first_ + served) % count : 0;
   pay(now);
-  std::erase_if(pairs_, [](const auto& pair) { return pair->closed; });
+  const auto gone = [](const auto& pair) { return pair->closed; };
+  // Who is next stays next when others before it go.
+  const auto next = pairs_.begin() + static_cast<std::ptrdiff_t>(first_);
+  first_ -= static_cast<std::size_t>(std::count_if(pairs_.begin(), next, gone));
+  std::erase_if(pairs_, gone);
 }
 
 void StreamHub::on_stall(LocalTime now, LocalTime length) {

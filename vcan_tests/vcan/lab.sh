@@ -48,7 +48,7 @@ until_true() {
 }
 
 say() { echo "--- $*"; }
-ask() { "$bin/kinebus" "$@" > "$work/ask.log" 2>&1 || fail "kinebus $*: $(tail -n 1 "$work/ask.log")"; }
+ask() { "$bin/kinebus" "$@" > "$work/ask.log" 2>&1 || fail "kinebus $*: $(cat "$work/ask.log")"; }
 # logged COUNT WORDS: the daemon's log has them so often.
 # What the daemon says when the job moves again; its answer to clear already speaks of going on.
 goes_on="the job [^ ]* goes on"

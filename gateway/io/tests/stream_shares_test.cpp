@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cstddef>
 #include <ctime>
 #include <string>
 
@@ -108,6 +109,26 @@ TEST_F(StreamsTest, WhoComesAndGoesLeavesTheRestOfTheLoopsTimeToOthers) {
   }
   const double bound_s = 0.010 + 0.2 * to_seconds(now - begin) + 0.004;
   EXPECT_LE(came * 0.0005, bound_s) << came << " in " << to_seconds(now - begin) << " s";
+}
+
+// Each takes the whole turn: who is not served in this one must be in a later one.
+TEST_F(StreamsTest, OfManyThatAreAlwaysReadyNobodyIsForgotten) {
+  constexpr std::size_t kStreams = 48;
+  std::array<int, kStreams> heard{}, far_ends{};
+  StreamHub hub(loop_, {.share = 1, .burst = 1s});
+  for (std::size_t i = 0; i < kStreams; ++i) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, ends.data()), 0);
+    far_ends[i] = ends[1];
+    ASSERT_TRUE(hub.add(std::make_unique<SocketStream>(ends[0]), std::make_unique<Laborious>(&heard[i])));
+  }
+  for (std::size_t turn = 0; turn < 4 * kStreams; ++turn) {
+    for (const int end : far_ends) ASSERT_EQ(::send(end, "x", 1, 0), 1);
+    loop_.wait(monotonic_now());
+    hub.on_time(monotonic_now());
+  }
+  for (std::size_t i = 0; i < kStreams; ++i) EXPECT_GT(heard[i], 0) << "stream " << i;
+  for (const int end : far_ends) ::close(end);
 }
 
 /// A byte for each reading, 50 times; each takes longer than the turn has for streams.

@@ -22,7 +22,7 @@ struct LimitsTest : DriveTest {
   void cut_power(int axis = 0) {
     control(0x00, axis);
     bench.run(5ms);
-    EXPECT_FALSE(bench.node().drive(static_cast<std::size_t>(axis)).power);
+    EXPECT_FALSE(bench.node().drive(axis).power);
   }
 };
 
