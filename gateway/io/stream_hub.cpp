@@ -41,6 +41,7 @@ struct StreamHub::Pair {
   std::unique_ptr<ByteStream> stream;
   std::unique_ptr<ByteSession> session;
   std::uint32_t interest = 0;
+  bool full = false;  ///< the stream took less than there was: the kernel tells when it takes more
   bool closed = false;
   LocalTime close_at = LocalTime::max();  ///< its session has ended
 };
@@ -126,19 +127,24 @@ void StreamHub::on_ready(Pair& pair, std::uint32_t events) {
 
 void StreamHub::send(Pair& pair) {
   std::size_t sent = 0;
-  bool waits = false;
-  while (!waits && sent < options_.bytes_per_turn) {
+  pair.full = false;
+  while (!pair.full && sent < options_.bytes_per_turn) {
     const auto bytes = pair.session->next_bytes();
     if (bytes.empty()) break;
     const ByteStream::Moved moved = pair.stream->write(bytes);
     if (moved.closed) return close(pair, "the other side ended the connection");
     pair.session->on_bytes_sent(moved.count);
     sent += moved.count;
-    waits = moved.count < bytes.size();
+    pair.full = moved.count < bytes.size();
   }
-  if (!waits && pair.session->ended() && pair.session->next_bytes().empty())
+  if (!pair.full && pair.session->ended() && pair.session->next_bytes().empty())
     return close(pair, "the session has ended");
-  std::uint32_t interest = pair.stream->interest(waits || sent >= options_.bytes_per_turn);
+  watch(pair, pair.full || sent >= options_.bytes_per_turn);
+}
+
+/// The kernel tells of the stream what its session can do something with.
+void StreamHub::watch(Pair& pair, bool has_output) {
+  std::uint32_t interest = pair.stream->interest(has_output);
   if (!pair.session->wants_bytes()) interest &= ~std::uint32_t{EPOLLIN};
   if (interest != pair.interest) set_interest(epoll_, EPOLL_CTL_MOD, pair.stream->fd(), interest, &pair);
   pair.interest = interest;
@@ -167,11 +173,16 @@ void StreamHub::watch_all(std::uint32_t events) {
 
 void StreamHub::on_time(LocalTime now) {
   if (now < rest_until_) return;
-  if (rest_until_ != LocalTime{0}) watch_all(EPOLLIN);
-  rest_until_ = LocalTime{0};
+  if (rest_until_ != LocalTime{0}) {
+    watch_all(EPOLLIN);
+    rest_until_ = LocalTime{0};
+    // What is served below may use up all again: who has come since, and what they said, is heard before.
+    return;
+  }
   // Sessions may make new streams' sessions speak, and close each other: the list is walked by index.
   const std::size_t count = pairs_.size();
   std::size_t served = 0;
+  if (count > 0) static_cast<void>(time_left());
   for (; served < count; ++served) {
     Pair& pair = *pairs_[(first_ + served) % count];
     if (pair.closed) continue;
@@ -199,6 +210,8 @@ void StreamHub::serve(Pair& pair, LocalTime now) {
   if (now >= pair.close_at) return close(pair, "the session has ended");
   if (pair.stream->buffered() && pair.session->wants_bytes())
     on_ready(pair, EPOLLIN);
+  else if (pair.full && (pair.interest & EPOLLOUT) != 0)
+    watch(pair, true);  // the kernel is not asked each turn whether a deaf one hears
   else
     send(pair);
 }

@@ -63,6 +63,7 @@ class StreamHub : public DaemonPart {
   void serve(Pair& pair, LocalTime now);
   bool time_left();
   void send(Pair& pair);
+  void watch(Pair& pair, bool has_output);
   void close(Pair& pair, const char* why);
 
   EventLoop& loop_;

@@ -131,6 +131,50 @@ TEST_F(StreamsTest, OfManyThatAreAlwaysReadyNobodyIsForgotten) {
   for (const int end : far_ends) ::close(end);
 }
 
+/// Has something to do all the time, and uses half a millisecond for it.
+class Busy : public Laborious {
+ public:
+  using Laborious::Laborious;
+  void on_time(LocalTime) override { labour(); }
+  LocalTime next_deadline() const override { return LocalTime{0}; }
+};
+
+TEST_F(StreamsTest, WhoAlwaysHasSomethingToDoLeavesOthersTheirTurn) {
+  int heard = 0, ignored = 0, came = 0;
+  std::array<int, 2> busy{}, other{}, ends{};
+  StreamHub hub(loop_, {.share = 0.2, .burst = 10ms});
+  for (auto* const pair : {&busy, &other, &ends})
+    ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, pair->data()), 0);
+  ASSERT_TRUE(hub.add(std::make_unique<SocketStream>(busy[0]), std::make_unique<Busy>(&ignored)));
+  ASSERT_TRUE(hub.add(std::make_unique<SocketStream>(other[0]), std::make_unique<Busy>(&ignored)));
+  ASSERT_TRUE(hub.add(std::make_unique<SocketStream>(ends[0]), std::make_unique<Laborious>(&heard)));
+  Listener listener(loop_, [&](int fd, const std::string&) {
+    hub.let_in();
+    ++came;
+    ::close(fd);
+  });
+  ASSERT_EQ(listener.listen_tcp("127.0.0.1:0"), "");
+  hub.add_door(listener.fd());
+  const auto turns = [&](int count) {
+    for (int i = 0; i < count; ++i) {
+      const LocalTime now = monotonic_now();
+      hub.on_time(now);
+      loop_.wait(std::min(hub.next_deadline(), now + LocalTime{1ms}));
+    }
+  };
+  turns(100);  // what it may use at once is used up
+  ASSERT_EQ(::send(ends[1], "x", 1, 0), 1);
+  const auto guest = connect_tcp("127.0.0.1", std::to_string(listener.port()));
+  ASSERT_TRUE(guest);
+  turns(100);
+  EXPECT_EQ(heard, 1);
+  EXPECT_EQ(came, 1);
+  ::close(*guest);
+  ::close(busy[1]);
+  ::close(other[1]);
+  ::close(ends[1]);
+}
+
 /// A byte for each reading, 50 times; each takes longer than the turn has for streams.
 class Morsels : public SocketStream {
  public:

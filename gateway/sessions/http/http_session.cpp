@@ -376,8 +376,14 @@ LocalTime Session::next_deadline() const {
   if (work_waits() || (answered_ && out_.empty())) return LocalTime{0};
   LocalTime next = next_look();
   if (!out_.empty()) next = std::min(next, moved_ + kStall);
-  if (task_ != nullptr && !whole_) next = std::min(next, moved_ + kStall);
-  if (task_ == nullptr) next = std::min(next, since_ + (reader_.idle() ? kIdle : kHeadWithin));
+  // As in on_time: a time at which nothing is done would be due again in each turn of the loop.
+  if (task_ != nullptr) {
+    if (!whole_ && !answered_ && task_->takes_body()) next = std::min(next, moved_ + kStall);
+  } else if (!reader_.idle() || in_.size() > at_) {
+    if (!answered_) next = std::min(next, since_ + kHeadWithin);
+  } else if (out_.empty()) {
+    next = std::min(next, since_ + kIdle);
+  }
   return next;
 }
 

@@ -108,6 +108,33 @@ TEST(Http, NobodyIsWaitedForForEver) {
   EXPECT_EQ(rig.half_uploads(), 0);
 }
 
+// A deadline that has passed is due in every turn of the daemon's loop: the loop would run without a rest.
+TEST(Http, WhoTakesNoAnswerOrTakesItSlowlyIsNotDueInEveryTurn) {
+  const std::string ask = HttpRig::head("GET", "/api/printer") + "\r\n";
+  for (const bool reads : {false, true})
+    for (const std::string& behind : {std::string(), ask, std::string("GET /half")}) {
+      HttpRig rig;
+      const auto session = rig.server.open(rig.link.machine.now, "http 10.0.0.7", "tcp 10.0.0.7", {});
+      const std::string all = ask + behind;
+      session->on_bytes(rig.link.machine.now,
+                        {reinterpret_cast<const std::uint8_t*>(all.data()), all.size()});
+      std::size_t heard = 0;
+      for (int i = 0; i < 400; ++i) {
+        rig.link.machine.run_for(200ms);
+        for (int turn = 0; turn < 4 && session->next_deadline() <= rig.link.machine.now; ++turn)
+          session->on_time(rig.link.machine.now);
+        EXPECT_GT(session->next_deadline(), rig.link.machine.now)
+            << "at " << i / 5 << " s, reads " << reads << ", behind it " << behind;
+        const std::size_t taken =
+            reads && i % 5 == 0 ? std::min<std::size_t>(session->next_bytes().size(), 10) : 0;
+        session->on_bytes_sent(taken);
+        heard += taken;
+      }
+      EXPECT_EQ(heard > 0, reads);
+      EXPECT_TRUE(reads || session->ended()) << "after 80 s";
+    }
+}
+
 TEST(Http, AfterAPauseOfTheWholeComputerEverybodyHasTheirTimeAnew) {
   HttpRig rig;
   Connection& slow_head = rig.connect();
