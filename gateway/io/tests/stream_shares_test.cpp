@@ -134,19 +134,25 @@ TEST_F(StreamsTest, OfManyThatAreAlwaysReadyNobodyIsForgotten) {
 /// Has something to do all the time, and uses half a millisecond for it.
 class Busy : public Laborious {
  public:
-  using Laborious::Laborious;
-  void on_time(LocalTime) override { labour(); }
+  Busy(int* heard, int* turns) : Laborious(heard), turns_(turns) {}
+  void on_time(LocalTime) override {
+    ++*turns_;
+    labour();
+  }
   LocalTime next_deadline() const override { return LocalTime{0}; }
+
+ private:
+  int* turns_;
 };
 
 TEST_F(StreamsTest, WhoAlwaysHasSomethingToDoLeavesOthersTheirTurn) {
-  int heard = 0, ignored = 0, came = 0;
+  int heard = 0, ignored = 0, turned = 0, came = 0;
   std::array<int, 2> busy{}, other{}, ends{};
   StreamHub hub(loop_, {.share = 0.2, .burst = 10ms});
   for (auto* const pair : {&busy, &other, &ends})
     ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, pair->data()), 0);
-  ASSERT_TRUE(hub.add(std::make_unique<SocketStream>(busy[0]), std::make_unique<Busy>(&ignored)));
-  ASSERT_TRUE(hub.add(std::make_unique<SocketStream>(other[0]), std::make_unique<Busy>(&ignored)));
+  ASSERT_TRUE(hub.add(std::make_unique<SocketStream>(busy[0]), std::make_unique<Busy>(&ignored, &turned)));
+  ASSERT_TRUE(hub.add(std::make_unique<SocketStream>(other[0]), std::make_unique<Busy>(&ignored, &turned)));
   ASSERT_TRUE(hub.add(std::make_unique<SocketStream>(ends[0]), std::make_unique<Laborious>(&heard)));
   Listener listener(loop_, [&](int fd, const std::string&) {
     hub.let_in();
@@ -172,6 +178,25 @@ TEST_F(StreamsTest, WhoAlwaysHasSomethingToDoLeavesOthersTheirTurn) {
   ::close(*guest);
   ::close(busy[1]);
   ::close(other[1]);
+  ::close(ends[1]);
+}
+
+TEST_F(StreamsTest, OneThatAlwaysHasSomethingToDoPaysForIt) {
+  int ignored = 0;
+  StreamHub hub(loop_, {.share = 0.2, .burst = 10ms});
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, ends.data()), 0);
+  int turns = 0;
+  ASSERT_TRUE(hub.add(std::make_unique<SocketStream>(ends[0]), std::make_unique<Busy>(&ignored, &turns)));
+  const LocalTime begin = monotonic_now();
+  LocalTime now = begin;
+  while (now < begin + LocalTime{400ms} || turns < 20) {
+    hub.on_time(now);
+    loop_.wait(std::min(hub.next_deadline(), now + LocalTime{1ms}));
+    now = monotonic_now();
+  }
+  const double bound_s = 0.010 + 0.2 * to_seconds(now - begin) + 0.004;
+  EXPECT_LE(turns * 0.0005, bound_s) << turns << " in " << to_seconds(now - begin) << " s";
   ::close(ends[1]);
 }
 
