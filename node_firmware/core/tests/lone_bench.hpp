@@ -49,6 +49,8 @@ struct Lone {
     }
     return code;
   }
+  /// Of what was asked last, and was not answered at once.
+  std::uint32_t late_answer() const { return code_of(answer_.value_or(CanFrame{})); }
   std::int64_t read(std::uint16_t index, std::uint8_t sub) {
     CanFrame reply = ask(about(0x40, index, sub));
     EXPECT_EQ(code_of(reply), 0u) << std::hex << index << ":" << int{sub};

@@ -1,0 +1,314 @@
+// What makes a node ask for a stop of all, when it does not, and what is left of it afterwards.
+
+#include "node_firmware/core/tests/lone_bench.hpp"
+
+namespace kinebus::testing_bench {
+namespace {
+
+/// Both axes are on the stream, and its ramp is as short as it can be.
+struct LatchTest : testing::Test {
+  LatchTest() {
+    lone.synchronise();
+    EXPECT_EQ(lone.write(0x2113, 0, 2, 2), 0u);
+    EXPECT_EQ(lone.write(0x2115, 0, 2, 0), 0u);
+  }
+  void follow() {
+    for (const int axis : {0, 1}) {
+      EXPECT_EQ(lone.write(static_cast<std::uint16_t>(0x6060 + axis * 0x800), 0, 1, 7), 0u);
+      lone.power(axis);
+      lone.control(0x0F, axis);
+    }
+  }
+  void record(const Segment& segment) {
+    Segment next = segment;
+    next.sequence = sequence++;
+    CanFrame frame{.id = 0x401, .length = 8};
+    put_u64_le(frame.data, encode(next));
+    lone.send(frame);
+  }
+  /// Records of 20 ms each, the first of them so far ahead of path time.
+  void queue(const std::vector<std::int32_t>& accelerations, std::int64_t ahead_units = 100) {
+    record({.control = SegmentControl::kStart,
+            .start_units = lone.node.path_time(lone.now).count() / kPathTicksPerUnit + ahead_units});
+    for (const std::int32_t a : accelerations) {
+      state = advance(state, a, 1250, kDefaultAccelerationShift);
+      record({.duration = 1250, .acceleration = {a, 0}});
+    }
+  }
+  double counts(int axis = 0) {
+    return std::ldexp(static_cast<double>(lone.node.position(lone.now, axis)), -32);
+  }
+  /// For so long nobody calls the node; then time is told to it.
+  void stand_still(BusTime span) {
+    lone.now += span;
+    lone.node.on_time(lone.now);
+    lone.wait(1ms);
+  }
+
+  Lone lone;
+  std::uint8_t sequence = 0;
+  AxisState state{};
+};
+
+TEST_F(LatchTest, AProcessorThatWasHeldUpPastTheEndOfItsRecordsStaysThereAndStopsAll) {
+  follow();
+  queue({600'000, 0, 0});
+  lone.rate(1);
+  ASSERT_FALSE(lone.stopped());
+  stand_still(100ms);
+  EXPECT_TRUE(lone.stopped());
+  EXPECT_EQ(lone.told(node_emcy::kStarved), 1);
+  EXPECT_EQ(lone.counter(NodeCounter::kUnderruns), 1);
+  EXPECT_TRUE(lone.stream_flags() & StreamStatus::kUnderrun);
+  EXPECT_EQ(lone.node.user_position(lone.now, 0), state.position) << "where the last record ends";
+  lone.run(100ms);
+  EXPECT_EQ(lone.node.user_position(lone.now, 0), state.position);
+  EXPECT_EQ(lone.counter(NodeCounter::kUnderruns), 1) << "told and counted once";
+  EXPECT_EQ(lone.told(node_emcy::kStarved), 1);
+  EXPECT_TRUE(lone.node.drive(0).power);
+
+  // The stop is lifted and the others are let go: this one has no way to go.
+  lone.clear_stop();
+  ASSERT_FALSE(lone.stopped());
+  record({.duration = 1250});
+  EXPECT_EQ(lone.node.user_position(lone.now, 0), state.position);
+  lone.clear_stop();
+  lone.rate(1);
+  EXPECT_TRUE(lone.stopped());
+  lone.run(50ms);
+  EXPECT_EQ(lone.node.user_position(lone.now, 0), state.position);
+
+  EXPECT_EQ(lone.write(0x60C4, 6, 1, 0), kNoAnswer) << "the axis creeps to its whole count first";
+  lone.run(200ms);
+  EXPECT_EQ(lone.late_answer(), 0u);
+  lone.clear_stop();
+  EXPECT_EQ(lone.stream_flags() & (StreamStatus::kUnderrun | StreamStatus::kStopped), 0);
+  EXPECT_EQ(lone.read(0x1001, 0), 0);
+  lone.rate(1);
+  EXPECT_FALSE(lone.stopped());
+}
+
+TEST_F(LatchTest, RecordsThatEndInTimeAreNotStarved) {
+  follow();
+  queue({600'000, -600'000});
+  record({.control = SegmentControl::kEnd});
+  lone.rate(1);
+  stand_still(100ms);
+  lone.run(200ms);
+  EXPECT_FALSE(lone.stopped());
+  EXPECT_EQ(lone.counter(NodeCounter::kUnderruns), 0);
+  EXPECT_EQ(lone.node.user_position(lone.now, 0), state.position);
+  EXPECT_TRUE(lone.stream_flags() & StreamStatus::kAtRest);
+}
+
+TEST_F(LatchTest, AnOverrunStopsOnlyWhereSomethingIsQueuedOrUnderWay) {
+  lone.node.on_receive_overrun(lone.now, 2);
+  lone.run(10ms);
+  EXPECT_FALSE(lone.stopped()) << "nothing is";
+  EXPECT_EQ(lone.told(emcy::kCanOverrun), 0);
+  EXPECT_EQ(lone.counter(NodeCounter::kRxOverrun), 2);
+  follow();
+  queue({600'000, -600'000}, 20'000);
+  lone.node.on_receive_overrun(lone.now, 0);
+  lone.run(10ms);
+  EXPECT_FALSE(lone.stopped()) << "no frame was lost";
+  EXPECT_EQ(lone.counter(NodeCounter::kRxOverrun), 2);
+  lone.node.on_receive_overrun(lone.now, 1);
+  lone.run(10ms);
+  EXPECT_TRUE(lone.stopped()) << "one of them may have been the start";
+  EXPECT_EQ(lone.told(emcy::kCanOverrun), 1);
+  EXPECT_EQ(lone.counter(NodeCounter::kRxOverrun), 3);
+}
+
+TEST_F(LatchTest, AnOverrunWhilePathTimeRunsStopsItThoughNothingIsQueued) {
+  lone.rate(1);
+  ASSERT_NE(lone.node.path_rate_q32(lone.now), 0u);
+  lone.node.on_receive_overrun(lone.now, 1);
+  lone.run(10ms);
+  EXPECT_TRUE(lone.stopped()) << "it may have been the hold";
+  EXPECT_EQ(lone.node.path_rate_q32(lone.now), 0u);
+}
+
+TEST_F(LatchTest, AnOverrunWhileAStopIsLatchedIsCountedAndAsksForNoOther) {
+  follow();
+  queue({600'000, -600'000}, 20'000);
+  lone.broadcast(RateCommand::Kind::kStop);
+  ASSERT_TRUE(lone.stopped());
+  const std::int64_t stops = lone.counter(NodeCounter::kCoordinatedStops);
+  lone.node.on_receive_overrun(lone.now, 5);
+  lone.run(10ms);
+  EXPECT_EQ(lone.counter(NodeCounter::kRxOverrun), 5);
+  EXPECT_EQ(lone.told(emcy::kCanOverrun), 0);
+  EXPECT_EQ(lone.counter(NodeCounter::kCoordinatedStops), stops);
+}
+
+TEST_F(LatchTest, TheEmergencyStopIsToldOncePerPressAndEveryPressStops) {
+  ASSERT_EQ(lone.write(0x2130, 7, 1, 7), 0u);
+  for (int press = 1; press <= 2; ++press) {
+    lone.node.on_switch(lone.now, 6, true);
+    lone.run(50ms);
+    EXPECT_TRUE(lone.stopped()) << press;
+    EXPECT_EQ(lone.told(node_emcy::kEmergencyStop), press);
+    lone.clear_stop();
+    EXPECT_TRUE(lone.stopped()) << "pressed";
+    lone.node.on_switch(lone.now, 6, false);
+    lone.run(50ms);
+    EXPECT_TRUE(lone.stopped()) << "let go, not cleared";
+    EXPECT_NE(lone.read(0x1001, 0), 0);
+    lone.clear_stop();
+    EXPECT_FALSE(lone.stopped()) << press;
+    EXPECT_EQ(lone.read(0x1001, 0), 0) << "it is over";
+  }
+}
+
+TEST_F(LatchTest, ALimitSwitchStopsPathTimeThatRunsEveryTimeItComes) {
+  ASSERT_EQ(lone.write(0x2130, 4, 1, 4), 0u);
+  lone.node.on_switch(lone.now, 3, true);
+  lone.run(10ms);
+  EXPECT_FALSE(lone.stopped()) << "all rests";
+  lone.node.on_switch(lone.now, 3, false);
+  lone.run(10ms);
+  for (int times = 1; times <= 2; ++times) {
+    lone.rate(1);
+    ASSERT_FALSE(lone.stopped());
+    lone.node.on_switch(lone.now, 3, true);
+    lone.run(10ms);
+    EXPECT_TRUE(lone.stopped()) << times;
+    EXPECT_EQ(lone.told(node_emcy::kLimitSwitch), times);
+    lone.clear_stop();
+    lone.node.on_switch(lone.now, 3, false);
+    lone.run(10ms);
+  }
+}
+
+TEST_F(LatchTest, TheSecondStopBrakesAMotionOfAnAxisOwnAsTheFirst) {
+  ASSERT_EQ(lone.write(0x2130, 7, 1, 7), 0u);
+  ASSERT_EQ(lone.write(0x6060, 0, 1, 1), 0u);
+  lone.power();
+  lone.control(0x0F);
+  for (int press = 1; press <= 2; ++press) {
+    ASSERT_EQ(lone.write(0x607A, 0, 4, press * 400'000), 0u);
+    lone.control(0x1F);
+    lone.run(200ms);
+    ASSERT_TRUE(lone.node.moving(lone.now)) << press;
+    lone.node.on_switch(lone.now, 6, true);
+    lone.run(100ms);
+    EXPECT_FALSE(lone.node.moving(lone.now)) << press;
+    EXPECT_TRUE(lone.node.drive(0).power);
+    lone.node.on_switch(lone.now, 6, false);
+    lone.run(10ms);
+    lone.control(0x0F);
+    lone.clear_stop();
+    lone.run(100ms);
+    EXPECT_FALSE(lone.node.moving(lone.now)) << "what was asked for before is forgotten";
+  }
+}
+
+TEST_F(LatchTest, AFaultThatIsToldAgainIsCountedAndStopsNobodyAnew) {
+  lone.node.on_drive_fault(lone.now, 0, emcy::kOverCurrent);
+  lone.run(10ms);
+  EXPECT_TRUE(lone.stopped());
+  lone.clear_stop();
+  ASSERT_FALSE(lone.stopped());
+  lone.node.on_drive_fault(lone.now, 0, emcy::kShortCircuit);
+  lone.run(10ms);
+  EXPECT_FALSE(lone.stopped()) << "it is without power since the first";
+  EXPECT_EQ(lone.counter(NodeCounter::kDriveFaults), 2);
+  EXPECT_EQ(lone.read(0x603F, 0), emcy::kOverCurrent);
+}
+
+TEST_F(LatchTest, TroubleOfAnAxisIsToldOnceUntilItIsOver) {
+  for (int times = 1; times <= 2; ++times) {
+    for (int again = 0; again < 3; ++again) {
+      lone.node.on_axis_trouble(lone.now, 1, emcy::kEncoder);
+      lone.run(10ms);
+    }
+    EXPECT_TRUE(lone.stopped()) << times;
+    EXPECT_EQ(lone.told(emcy::kEncoder), times);
+    EXPECT_EQ(lone.counter(NodeCounter::kDriveFaults), times);
+    lone.clear_stop();
+    lone.node.on_axis_trouble(lone.now, 1, emcy::kEncoder);
+    lone.run(10ms);
+    EXPECT_FALSE(lone.stopped()) << "it lasts: who has cleared the stop knows of it";
+    EXPECT_NE(lone.read(0x1001, 0), 0);
+    lone.node.on_axis_trouble_gone(emcy::kEncoder);
+    EXPECT_EQ(lone.read(0x1001, 0), 0);
+  }
+}
+
+TEST_F(LatchTest, ACommandThatComesTwiceIsOne) {
+  lone.rate(1);
+  const CanFrame command =
+      encode(RateCommand{.counter = 9, .full_ramp_2ms = 1, .start = Bench::whole_us(lone.now + 5ms)});
+  lone.send(command);
+  lone.send(command);
+  lone.run(50ms);
+  EXPECT_EQ(lone.counter(NodeCounter::kDuplicateFrames), 1);
+  EXPECT_FALSE(lone.stopped());
+  EXPECT_EQ(lone.node.path_rate_q32(lone.now), 0u);
+}
+
+/// A master that is lost: 1029h says what becomes of the state.
+class LostMaster : public LatchTest, public testing::WithParamInterface<std::pair<int, NmtState>> {};
+
+TEST_P(LostMaster, StopsAllAndTheNodeGoesToTheStateThatItIsToldTo) {
+  ASSERT_EQ(lone.write(0x1029, 1, 1, GetParam().first), 0u);
+  ASSERT_EQ(lone.write(0x1016, 1, 4, 0x7F'0032), 0u);
+  lone.run(200ms);
+  EXPECT_FALSE(lone.stopped()) << "one that was never heard is not lost";
+  lone.send("77F#05");
+  lone.run(100ms);
+  EXPECT_TRUE(lone.stopped());
+  EXPECT_EQ(lone.told(emcy::kHeartbeat), 1);
+  EXPECT_EQ(lone.node.nmt_state(), GetParam().second);
+  const std::size_t before = lone.seen.size();
+  lone.send("000#0101");
+  lone.send("77F#05");
+  lone.run(20ms);
+  lone.clear_stop();
+  EXPECT_FALSE(lone.stopped());
+  EXPECT_GT(lone.seen.size(), before);
+}
+INSTANTIATE_TEST_SUITE_P(ErrorBehaviour, LostMaster,
+                         testing::Values(std::pair{0, NmtState::kPreOperational},
+                                         std::pair{1, NmtState::kOperational},
+                                         std::pair{2, NmtState::kStopped}));
+
+TEST(NodeLatch, AMasterThatIsLostWhileNothingMovesStopsNobodyWithoutAGateway) {
+  Lone lone;
+  ASSERT_EQ(lone.write(0x1016, 1, 4, 0x7F'0032), 0u);
+  lone.send("77F#05");
+  lone.wait(100ms);
+  EXPECT_FALSE(lone.stopped());
+  EXPECT_EQ(lone.told(emcy::kHeartbeat), 1);
+  EXPECT_NE(lone.read(0x1001, 0), 0);
+  lone.send("77F#05");
+  EXPECT_EQ(lone.read(0x1001, 0), 0) << "it is back";
+  lone.start_move();
+  lone.wait(100ms);
+  EXPECT_TRUE(lone.stopped()) << "what moves stops";
+  EXPECT_FALSE(lone.node.moving(lone.now));
+}
+
+TEST(NodeLatch, HomingThatFailsLetsTheOtherAxisGoOnWithoutAGateway) {
+  Lone lone;
+  ASSERT_EQ(lone.write(0x2140, 9, 4, 200), 0u);
+  ASSERT_EQ(lone.write(0x6098, 0, 1, 19), 0u);
+  ASSERT_EQ(lone.write(0x6060, 0, 1, 6), 0u);
+  lone.power();
+  lone.start_move(1);
+  lone.control(0x0F);
+  for (int times = 1; times <= 2; ++times) {
+    lone.control(0x1F);
+    lone.wait(200ms);
+    EXPECT_EQ(lone.read(0x6041, 0) & 0x2000, 0x2000) << "its error";
+    EXPECT_EQ(lone.told(node_emcy::kHoming), times);
+    EXPECT_EQ(lone.counter(NodeCounter::kHomingErrors), times);
+    EXPECT_FALSE(lone.stopped());
+    EXPECT_TRUE(lone.node.moving(lone.now)) << "the other one";
+    lone.control(0x0F);
+  }
+}
+
+}  // namespace
+}  // namespace kinebus::testing_bench
