@@ -204,6 +204,34 @@ TEST_F(LatchTest, TheSecondStopBrakesAMotionOfAnAxisOwnAsTheFirst) {
   }
 }
 
+TEST_F(LatchTest, WithAGatewayNoFaultResetLiftsTheStopOfAll) {
+  lone.broadcast(RateCommand::Kind::kStop);
+  ASSERT_TRUE(lone.stopped());
+  lone.control(0x80);
+  lone.control(0x00);
+  EXPECT_TRUE(lone.stopped()) << "one node alone would go on";
+  lone.clear_stop();
+  EXPECT_FALSE(lone.stopped());
+}
+
+TEST_F(LatchTest, ABufferClearIsAnsweredWhenTheAxisRestsWhateverTheMemoryDoes) {
+  lone.send("7E5#0401000000000000");
+  lone.send("7E5#1700000000000000");  // LSS: store, which the port has not come to yet
+  ASSERT_EQ(lone.write(0x6084, 0, 4, 1'000), 0u);  // so that it takes its time
+  follow();
+  queue({600'000, 0, 0, 0, 0, 0, 0, 0});
+  lone.rate(1);
+  lone.broadcast(RateCommand::Kind::kStop);
+  ASSERT_EQ(lone.write(0x60C4, 6, 1, 0), kNoAnswer);
+  EXPECT_TRUE(lone.node.image_to_store().empty()) << "power has come";
+  lone.wait(1ms);
+  EXPECT_EQ(lone.late_answer(), kNoAnswer) << "the axis still creeps";
+  EXPECT_TRUE(lone.was_sent("7E4#17FF010000000000"));
+  lone.run(200ms);
+  EXPECT_EQ(lone.late_answer(), 0u);
+  EXPECT_EQ(lone.node.user_position(lone.now, 0) % kOneCount, 0);
+}
+
 TEST_F(LatchTest, AFaultThatIsToldAgainIsCountedAndStopsNobodyAnew) {
   lone.node.on_drive_fault(lone.now, 0, emcy::kOverCurrent);
   lone.run(10ms);
@@ -288,6 +316,24 @@ TEST(NodeLatch, AMasterThatIsLostWhileNothingMovesStopsNobodyWithoutAGateway) {
   lone.wait(100ms);
   EXPECT_TRUE(lone.stopped()) << "what moves stops";
   EXPECT_FALSE(lone.node.moving(lone.now));
+}
+
+TEST(NodeLatch, WithoutAGatewayAFaultResetAloneLiftsTheStop) {
+  Lone lone;
+  ASSERT_EQ(lone.write(0x2130, 7, 1, 7), 0u);
+  lone.power();
+  lone.node.on_switch(lone.now, 6, true);
+  lone.wait(50ms);
+  ASSERT_TRUE(lone.stopped());
+  lone.control(0x87);
+  EXPECT_TRUE(lone.stopped()) << "pressed";
+  lone.node.on_switch(lone.now, 6, false);
+  lone.wait(10ms);
+  lone.control(0x87);
+  for (const int word : {0x07, 0x0F, 0x07}) lone.control(word);
+  EXPECT_TRUE(lone.stopped()) << "no edge of the reset's bit";
+  lone.control(0x87);
+  EXPECT_FALSE(lone.stopped());
 }
 
 TEST(NodeLatch, HomingThatFailsLetsTheOtherAxisGoOnWithoutAGateway) {

@@ -169,6 +169,22 @@ TEST(NodeStorage, ResetCommunicationBringsBackWhatIsStoredBelow2000hAlone) {
   EXPECT_EQ(lone.read(0x6081, 0), 9'000);
 }
 
+TEST(NodeStorage, LoadForgetsWhatIsStoredAndTheDefaultsHoldFromTheNextResetOn) {
+  Lone lone({.node_id = 0}, image_with({{0x2113, 0, 60}, {0x6081, 0, 9'000}}, 33));
+  EXPECT_EQ(lone.write(0x1011, 1, 4, kLoadSignature), kNoAnswer);
+  const auto image = lone.node.image_to_store();
+  const ImageBytes kept(image.begin(), image.end());
+  lone.node.on_image_stored(true);
+  EXPECT_EQ(text_of(lone.node.next_frame().value_or(CanFrame{})), "5A1#6011100100000000");
+  EXPECT_EQ(lone.read(0x6081, 0), 9'000) << "not before it";
+  lone.send("000#8121");
+  EXPECT_EQ(lone.read(0x2113, 0), 100);
+  EXPECT_EQ(lone.read(0x6081, 0), 128'000);
+  Lone again({.node_id = 0}, kept);
+  EXPECT_EQ(again.node.node_id(), 33) << "it keeps its node id";
+  EXPECT_EQ(again.read(0x6081, 0), 128'000);
+}
+
 TEST(NodeStorage, EachCommandTakesItsOwnSignatureAlone) {
   Lone lone;
   for (const std::int64_t wrong : {kLoadSignature, std::int64_t{0}, std::int64_t{1}, kSaveSignature + 1})

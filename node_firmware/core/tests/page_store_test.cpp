@@ -205,6 +205,8 @@ TEST(PageStore, ARecordWhoseHeadIsDamagedDoesNotCount) {
     ASSERT_NE(pages.byte(record + at), 0);
     pages.flash.program(record + at, 0);
     EXPECT_EQ(loaded(pages), image(2, 100)) << at;
+    for (const std::size_t before : {std::size_t{0}, record / 2}) pages.flash.program(before + at, 0);
+    EXPECT_TRUE(loaded(pages).empty()) << at << ": of none";
   }
 }
 
