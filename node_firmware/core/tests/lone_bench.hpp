@@ -172,4 +172,49 @@ struct Lone {
   std::uint8_t counter_ = 0, rate_counter_ = 0;
 };
 
+/// Both axes are on the stream, and its ramp is as short as it can be.
+struct LoneStreamTest : testing::Test {
+  LoneStreamTest() {
+    lone.synchronise();
+    EXPECT_EQ(lone.write(0x2113, 0, 2, 2), 0u);
+    EXPECT_EQ(lone.write(0x2115, 0, 2, 0), 0u);
+  }
+  void follow() {
+    for (const int axis : {0, 1}) {
+      EXPECT_EQ(lone.write(static_cast<std::uint16_t>(0x6060 + axis * 0x800), 0, 1, 7), 0u);
+      lone.power(axis);
+      lone.control(0x0F, axis);
+    }
+  }
+  void record(const Segment& segment) {
+    Segment next = segment;
+    next.sequence = sequence++;
+    CanFrame frame{.id = 0x401, .length = 8};
+    put_u64_le(frame.data, encode(next));
+    lone.send(frame);
+  }
+  /// Records of 20 ms each, the first of them so far ahead of path time.
+  void queue(const std::vector<std::int32_t>& accelerations, std::int64_t ahead_units = 100) {
+    record({.control = SegmentControl::kStart,
+            .start_units = lone.node.path_time(lone.now).count() / kPathTicksPerUnit + ahead_units});
+    for (const std::int32_t a : accelerations) {
+      state = advance(state, a, 1250, kDefaultAccelerationShift);
+      record({.duration = 1250, .acceleration = {a, 0}});
+    }
+  }
+  double counts(int axis = 0) {
+    return std::ldexp(static_cast<double>(lone.node.position(lone.now, axis)), -32);
+  }
+  /// For so long nobody calls the node; then time is told to it.
+  void stand_still(BusTime span) {
+    lone.now += span;
+    lone.node.on_time(lone.now);
+    lone.wait(1ms);
+  }
+
+  Lone lone;
+  std::uint8_t sequence = 0;
+  AxisState state{};
+};
+
 }  // namespace kinebus::testing_bench
