@@ -48,7 +48,7 @@ void DriveAxis::on_controlword(LocalTime now, std::uint16_t word) {
   power_.on_controlword(word, stop_options());
   serve_power(now);
   serve_stop(now);
-  const bool may_move = power_.moves() && was_enabled_ && !blocked() && source_ != Source::kStream;
+  const bool may_move = power_.moves() && !blocked() && source_ != Source::kStream;
   if (mode_ == Mode::kProfilePosition) {
     if (may_move && source_ == Source::kProfile)
       profile_position_.on_controlword(to_ticks(now), word, next_set_point(word), profile_);

@@ -67,7 +67,7 @@ void DriveAxis::enter_mode(LocalTime now, Mode mode) {
 // one. What stops it by 60FFh = 0, at a limit, or in any other way is a ramp like every other.
 void DriveAxis::serve_velocity(LocalTime now) {
   const bool runs = mode_ == Mode::kProfileVelocity && wanted_mode_ == mode_ && source_ == Source::kProfile &&
-                    power_.moves() && was_enabled_ && !blocked();
+                    power_.moves() && !blocked();
   if (!runs) return runs_.reset();
   const std::int64_t wanted = parameter(kTargetVelocity);
   const std::int64_t fastest = unsigned_parameter(slot_of_axes(object::kMaxProfileVelocity));

@@ -8,6 +8,9 @@
 namespace kinebus {
 namespace {
 
+/// Two years at full rate. Path time has 51 bits: what is beyond them would wrap around.
+constexpr std::int64_t kMostPathTime = std::int64_t{1} << 50;
+
 CanFrame frame_of_bits(std::int64_t bits) {
   CanFrame frame{.length = 8};
   put_u64_le(frame.data, static_cast<std::uint64_t>(bits));
@@ -98,8 +101,8 @@ AbortCode Node::write_node_object(const ObjectEntry& entry, std::int64_t value) 
       path_.on_stamp(frame_of_bits(value), now_);
       return AbortCode::kNone;
     case 0x2112:
-      return value >= 0 && path_.set_path_time(PathTime{value}, now_) ? AbortCode::kNone
-                                                                      : AbortCode::kDeviceState;
+      if (value < 0 || value > kMostPathTime) return AbortCode::kTooHigh;
+      return path_.set_path_time(PathTime{value}, now_) ? AbortCode::kNone : AbortCode::kDeviceState;
     case object::kSessionKey.index:
       return session_.write(address.subindex, static_cast<std::uint32_t>(value), in_motion());
     default:
