@@ -90,7 +90,7 @@ void Socket::work() {
         starved_ = at_ == in_.size();
         break;
       case FrameReader::Step::kText:
-        ++messages;
+        messages = kMessagesPerTurn;  // what it asks for may take the turn's time
         dialect_->on_text(reader_.payload());
         break;
       case FrameReader::Step::kPing:
