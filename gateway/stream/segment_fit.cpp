@@ -160,6 +160,7 @@ Segmenter::Fit Segmenter::fit(std::int32_t units, Goal goal) {
     target.scale = target.per_h2 / (1 + weight * weight);
   }
   for (std::size_t i = 0; i < at_.axes.size(); ++i) fit_axis(i, target, f);
+  f.score = std::max(f.error, f.drift / (eased_ ? kMostEasedDrift : kMostDrift));
   return f;
 }
 

@@ -19,10 +19,6 @@ std::int32_t round_up(double x) {
 
 }  // namespace
 
-double Segmenter::Fit::score() const {
-  return std::max(error, drift / kMostDrift);
-}
-
 Segmenter::Segmenter(const NodeAxes& node, Options options)
     : node_(node),
       options_(options),
@@ -47,6 +43,7 @@ void Segmenter::start(const std::array<AxisState, kAxesPerNode>& states) {
   at_.knot = 0;
   start_offset_ = 0;
   links_ = 0;
+  eased_ = false;
   complete_ = ended_ = false;
   for (std::size_t i = 0; i < at_.axes.size(); ++i) {
     at_.axes[i].p = to_counts(states[i].position);
@@ -103,6 +100,7 @@ void Segmenter::push(const JointSpan& span) {
       start_offset_ = std::max(start_offset_, offset);
       widen(at_.axes[i], offset);
     }
+  eased_ = eased_ || span.eased;
   append(p);
   if (!span.last) return;
   complete_ = true;
@@ -150,32 +148,39 @@ Segmenter::Fit Segmenter::come_to_rest() {
 /// A steady chain of segments of h on a bend has the velocity error w = M h^2 / 12 at every knot. Coming from
 /// w0, a segment that meets the position ends with M h^2 / 6 - w0; so the steady state is reached at once by
 /// h^2 (1/2 + w0 / 2w). From w0 = 0 that is h / sqrt(2).
+/// Where hardly anything bends, w0 is what the end of a bend has left, and alone sets how far a segment can
+/// go.
 double Segmenter::steadied(double h) const {
   const double knot = static_cast<double>(at_.knot);
   const Piece& p = piece(0);
   const Piece& e = piece(piece_at(knot + h, 0));
   const double x = knot - p.start, y = knot + h - e.start;
   double steady = 0, now = 0;  // of the axis that bends more, in tolerances
+  double left = 0;             // of the axis that is off more
   for (std::size_t i = 0; i < at_.axes.size(); ++i) {
     const auto& c = p.c[i];
     const auto& d = e.c[i];
     const double q = c[0] + x * (c[1] + x * (c[2] + x * c[3])), q1 = c[1] + x * (2 * c[2] + x * 3 * c[3]);
     const double r = d[0] + y * (d[1] + y * (d[2] + y * d[3])), r1 = d[1] + y * (2 * d[2] + y * 3 * d[3]);
     const double wanted = (0.5 * (q1 + r1) - (r - q) / h) / at_.axes[i].base_tolerance;
+    left = std::max(left, std::abs(q1 - at_.axes[i].v) * at_.axes[i].per_base_tolerance);
     if (std::abs(wanted) <= std::abs(steady)) continue;
     steady = wanted;
     now = (q1 - at_.axes[i].v) / at_.axes[i].base_tolerance;
   }
+  if (eased_ && std::abs(steady) * h < kStraight) return std::min(h, kTakenBack / left);
   if (std::abs(steady) * h < 1) return h;
   return h * std::sqrt(std::clamp(0.5 + 0.5 * now / steady, 0.15, 1.2));
 }
 
 Segmenter::Fit Segmenter::run_on(const Reach& far) {
-  double h = far.at_jump ? far.units : steadied(far.units);
+  double h = far.at_jump && !eased_ ? far.units : steadied(far.units);
+  const bool at_jump = far.at_jump && h >= kNearJump * far.units;
+  if (at_jump) h = far.units;
   const Piece& p = piece(far.piece);
   const double rest = p.end - static_cast<double>(at_.knot);
   bool halfway = false;
-  if (!far.at_jump && rest < 6 * h) {
+  if (!at_jump && rest < 6 * h) {
     // Even parts up to a jump, so that no short one is left over.
     const bool run_end = complete_ && far.piece + 2 == count();
     const double parts = std::ceil(rest / std::min(1.05 * h, kLongest));
@@ -191,10 +196,10 @@ Segmenter::Fit Segmenter::run_on(const Reach& far) {
   }
   const Fit f = fit(units, Goal::kRunOn);
   if (!f.good()) return shrink(f);
-  if (far.at_jump) return cross_jumps(f, far);
-  if (f.score() < 0.4 && h < 0.7 * kLongest && !halfway) {
+  if (at_jump) return cross_jumps(f, far);
+  if (f.score < 0.4 && h < 0.7 * kLongest && !halfway) {
     const Fit longer =
-        fit(static_cast<std::int32_t>(std::min(h * std::cbrt(0.8 / std::max(f.score(), 0.1)), kLongest)),
+        fit(static_cast<std::int32_t>(std::min(h * std::cbrt(0.8 / std::max(f.score, 0.1)), kLongest)),
             Goal::kRunOn);
     if (longer.good()) return longer;
   }
@@ -219,9 +224,9 @@ Segmenter::Fit Segmenter::cross_jumps(Fit best, const Reach& far) {
 Segmenter::Fit Segmenter::shrink(Fit failed) {
   Fit best = failed, f = failed;
   for (int i = 0; i < kTries && f.units > 2; ++i) {
-    const double factor = std::clamp(std::cbrt(0.7 / f.score()), 0.25, 0.8);
+    const double factor = std::clamp(std::cbrt(0.7 / f.score), 0.25, 0.8);
     f = fit(static_cast<std::int32_t>(factor * f.units), Goal::kRunOn);
-    if (f.score() < best.score() || (f.error <= 1 && best.error > 1)) best = f;
+    if (f.score < best.score || (f.error <= 1 && best.error > 1)) best = f;
     if (f.good()) break;
   }
   return best;
@@ -275,8 +280,7 @@ const Segmenter::Fit& Segmenter::choose_safe() {
     if (f.units < 4) break;
     // A dead end: a shorter segment has more to choose from.
     begin_chain(fit(f.units * 5 / 8, Goal::kRunOn));
-    if (best.error > 1 ? link(0).fit.error < best.error : link(0).fit.score() < best.score())
-      best = link(0).fit;
+    if (best.error > 1 ? link(0).fit.error < best.error : link(0).fit.score < best.score) best = link(0).fit;
   }
   begin_chain(best);
   return link(0).fit;

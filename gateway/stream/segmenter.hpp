@@ -90,8 +90,8 @@ class Segmenter {
     std::array<std::int32_t, kAxesPerNode> acceleration{};
     double error = 0;  ///< largest error / tolerance
     double drift = 0;  ///< how much of the tolerance the end state will cost the next segment
-    bool good() const { return score() <= 1; }
-    double score() const;
+    double score = 0;  ///< of both, over what is allowed
+    bool good() const { return score <= 1; }
   };
   /// Where the first guess ends: at `units`, because of a jump there (`at_jump`), the run's end, or the bend.
   struct Reach {
@@ -190,6 +190,7 @@ class Segmenter {
   double run_end_ = 0;  ///< units; valid when complete_
   double start_offset_ = 0;
   bool complete_ = false, ended_ = true;
+  bool eased_ = false;  ///< the run's accelerations do not jump
 };
 
 }  // namespace kinebus
