@@ -66,29 +66,6 @@ Error<StoreError> no_such_job(std::string_view name) {
 
 }  // namespace
 
-StoreError disk_error(const fs::path& path, int error) {
-  switch (error) {
-    case ENOSPC:
-    case EDQUOT:
-    case EFBIG:
-      return {StoreError::Kind::kDiskFull, say("the disk is full")};
-    case EROFS:
-    case EACCES:
-    case EPERM:
-      return {StoreError::Kind::kReadOnly,
-              say("%1 cannot be written: %2", path.string(), std::strerror(error))};
-    default:
-      return {StoreError::Kind::kDisk, say("%1: %2", path.string(), std::strerror(error))};
-  }
-}
-
-void sync_folder(const fs::path& folder) {
-  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return;
-  ::fsync(fd);
-  ::close(fd);
-}
-
 Sentence JobStore::check_name(std::string_view name) {
   const auto bad = [](char c) {
     return static_cast<unsigned char>(c) < 0x20 || c == '/' || c == '\\' || c == 0x7F;
