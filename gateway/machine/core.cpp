@@ -317,7 +317,7 @@ void Gateway::Core::on_bus_failure(BusTime now, std::string_view what) {
 }
 
 void Gateway::Core::watch_nodes() {
-  const bool moves = runner_->active() && !runner_->suspended();
+  const bool moves = runner_->active() && !runner_->suspended() && !group_.run_done(rate_.tau(now_));
   watch_.on_time(now_, streams_flow() && moves && rate_.rate(now_) > 0);
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const bool follows =

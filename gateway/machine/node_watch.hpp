@@ -40,7 +40,8 @@ class NodeWatch {
             StreamGroup& group, EventQueue& events, MachineCounters& counters)
       : machine_(machine), links_(links), rate_(rate), group_(group), events_(events), counters_(counters) {}
 
-  /// Before look() at each node. `streaming`: records flow and path time runs.
+  /// Before look() at each node. `streaming`: records flow and path time runs. Behind the end of a run nodes
+  /// have nothing to tell, though path time may still come to rest.
   void on_time(BusTime now, bool streaming);
   /// At what a node has said, or not said for too long.
   Verdict look(BusTime now, std::size_t node, const Situation& situation);

@@ -117,5 +117,28 @@ TEST(SmoothRamps, KeepTheJointsJerkOnACartesianMachine) {
       expect_smooth_ramps(gentle("cartesian.toml", jerk), job);
 }
 
+/// The run ends while the ramp of the hold is still under way: at rest nodes tell nothing, and are not
+/// missed.
+TEST(SmoothRamps, AHoldThatTheJobsEndOvertakesEndsHeldAndThenFinished) {
+  const MachineDescription machine = gentle("m1.toml", 100'000);
+  const std::string job = "G1 X20 Y5 Z10 F6000\nG1 X0 Y0\n";
+  const double whole_s = simulate_on(machine, job).job_time_s;
+  int held = 0;
+  for (int i = 0; i < 40; ++i) {
+    const double at_s = whole_s - 0.02 * i;
+    SCOPED_TRACE(testing::Message() << "hold at " << at_s << " s of " << whole_s << " s");
+    bool asked = false;
+    SimulateOptions options;
+    options.operate = [&](Gateway& gateway, double job_s) {
+      if (job_s > at_s && !asked) asked = true, held += gateway.carry_out(command::Hold{}) ? 1 : 0;
+      if (gateway.state() == MachineState::kHeld) {
+        EXPECT_TRUE(gateway.carry_out(command::Resume{}));
+      }
+    };
+    expect_within_bounds(simulate_on(machine, job, 1, options));
+  }
+  EXPECT_GT(held, 30);
+}
+
 }  // namespace
 }  // namespace kinebus
