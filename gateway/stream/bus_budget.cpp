@@ -50,7 +50,12 @@ double BusBudget::allowed_rate(std::span<const NodeStream* const> nodes, PathTim
       if (waiting > 0) first = std::min(first, nodes[i]->unsent_begins_units(waiting - 1));
     }
     if (records > 0) limit(first, static_cast<double>(records));
-    if (until == made) break;
+    // What begins later has more time, and all that waits is the most that it can wait for.
+    const double tightest = rate;
+    if (records > 0) limit(first, static_cast<double>(all));
+    const bool settled = records > 0 && rate >= tightest;
+    rate = tightest;
+    if (settled || until == made) break;
   }
 
   // A full queue must cover the reserve, too.

@@ -153,6 +153,7 @@ Result<std::optional<JointSpan>, StreamError> JointSampler::next() {
   span.start_s = phase_start_s_ + done_s_;
   span.duration_s = t1 - done_s_;
   span.line = phase_.line;
+  span.eased = phase_.jerk != 0;
   knot_ = end;
   done_s_ = t1;
   ++counters_.spans;

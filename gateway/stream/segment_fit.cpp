@@ -15,11 +15,11 @@ using namespace segmenter;
 /// neither get far beyond the jump, nor is the jump small.
 bool Segmenter::stops_at(std::size_t index, double b) const {
   const double jump = piece(index).jump;
-  if (complete_ && index + 2 == at_.count) return true;
+  if (complete_ && index + 2 == count()) return true;
   if (jump * b * b < kStopAtJump) return false;
   const double enough = std::sqrt(kStopAtJump / jump);
   double after = 0;
-  for (std::size_t i = index + 1; i < at_.count; ++i) {
+  for (std::size_t i = index + 1; i < count(); ++i) {
     after += piece(i).end - piece(i).start;
     if (after > enough) return true;
     if (piece(i).jump > 0.2 * jump) return false;
@@ -36,7 +36,7 @@ Segmenter::Reach Segmenter::reach() const {
     const Piece& p = piece(i);
     const double end = p.end - knot, to = std::min(end, kLongest);
     const auto error = [&](double h) { return kBendError * h * h * (change / 3 + p.bend * (h - begin)); };
-    if (complete_ && i + 1 == at_.count) return {begin, i, false, true};
+    if (complete_ && i + 1 == count()) return {begin, i, false, true};
     if (error(to) > kAim) {
       double h = 0;
       if (begin <= 0) {
@@ -48,8 +48,8 @@ Segmenter::Reach Segmenter::reach() const {
       }
       return {h, i, false, false};
     }
-    if (end >= kLongest || i + 1 == at_.count) return {to, i, false, false};
-    if (stops_at(i, end) && !(complete_ && i + 2 == at_.count)) return {end, i + 1, true, false};
+    if (end >= kLongest || i + 1 == count()) return {to, i, false, false};
+    if (stops_at(i, end) && !(complete_ && i + 2 == count())) return {end, i + 1, true, false};
     change += p.jump + 3 * p.bend * (end - std::max(begin, 0.0));
     begin = end;
   }
@@ -58,7 +58,7 @@ Segmenter::Reach Segmenter::reach() const {
 /// How far a segment that begins at t, in piece `index`, will go at most.
 double Segmenter::next_units(double t, std::size_t index, double most) const {
   double bend = 0;
-  for (std::size_t i = index; i < at_.count; ++i) {
+  for (std::size_t i = index; i < count(); ++i) {
     const Piece& p = piece(i);
     const double b = p.end - t;
     bend = std::max(bend, p.bend);
@@ -97,7 +97,7 @@ double Segmenter::resting_acceleration(std::size_t axis, double h, Goal goal) co
   const Axis& a = at_.axes[axis];
   if (goal == Goal::kRest) return -0.5 * a.v / h;
   const double whole = std::max(std::ceil(run_end_ - static_cast<double>(at_.knot) - 1e-6), h + 1);
-  const double missing = piece(at_.count - 1).c[axis][0] - a.p - a.v * whole;
+  const double missing = piece(count() - 1).c[axis][0] - a.p - a.v * whole;
   return (missing + 0.5 * (whole - h) * a.v) / (h * whole);
 }
 
@@ -160,6 +160,7 @@ Segmenter::Fit Segmenter::fit(std::int32_t units, Goal goal) {
     target.scale = target.per_h2 / (1 + weight * weight);
   }
   for (std::size_t i = 0; i < at_.axes.size(); ++i) fit_axis(i, target, f);
+  f.score = std::max(f.error, f.drift / (eased_ ? kMostEasedDrift : kMostDrift));
   return f;
 }
 

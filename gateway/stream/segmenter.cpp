@@ -19,10 +19,6 @@ std::int32_t round_up(double x) {
 
 }  // namespace
 
-double Segmenter::Fit::score() const {
-  return std::max(error, drift / kMostDrift);
-}
-
 Segmenter::Segmenter(const NodeAxes& node, Options options)
     : node_(node),
       options_(options),
@@ -43,11 +39,11 @@ Segmenter::Segmenter(const NodeAxes& node, Options options)
 void Segmenter::start(const std::array<AxisState, kAxesPerNode>& states) {
   assert(states[0].velocity == 0 && states[1].velocity == 0);
   at_.states = states;
-  at_.first = at_.count = 0;
+  at_.first = pushed_ = 0;
   at_.knot = 0;
   start_offset_ = 0;
-  planned_.reset();
-  choices_.fill({});
+  links_ = 0;
+  eased_ = false;
   complete_ = ended_ = false;
   for (std::size_t i = 0; i < at_.axes.size(); ++i) {
     at_.axes[i].p = to_counts(states[i].position);
@@ -68,16 +64,16 @@ void Segmenter::widen(Axis& axis, double offset) {
 }
 
 void Segmenter::append(const Piece& next) {
-  if (at_.count > 0) {
-    Piece& before = place(at_.count - 1);
+  if (count() > 0) {
+    Piece& before = place(count() - 1);
     const double d = before.end - before.start;
     before.jump = 0;
     for (std::size_t i = 0; i < at_.axes.size(); ++i)
       before.jump = std::max(before.jump, std::abs(next.c[i][2] - before.c[i][2] - 3 * before.c[i][3] * d) *
                                               at_.axes[i].per_base_tolerance);
   }
-  ++at_.count;
-  place(at_.count - 1) = next;
+  ++pushed_;
+  place(count() - 1) = next;
 }
 
 void Segmenter::push(const JointSpan& span) {
@@ -98,12 +94,13 @@ void Segmenter::push(const JointSpan& span) {
     p.c[i] = {k * (c[0] - scaling.offset), k * u * c[1], k * u * u * c[2], k * u * u * u * c[3]};
     p.bend = std::max(p.bend, std::abs(p.c[i][3]) * at_.axes[i].per_base_tolerance);
   }
-  if (at_.count == 0 && at_.knot == 0)
+  if (count() == 0 && at_.knot == 0)
     for (std::size_t i = 0; i < at_.axes.size(); ++i) {
       const double offset = std::abs(p.c[i][0] - at_.axes[i].p);
       start_offset_ = std::max(start_offset_, offset);
       widen(at_.axes[i], offset);
     }
+  eased_ = eased_ || span.eased;
   append(p);
   if (!span.last) return;
   complete_ = true;
@@ -117,30 +114,22 @@ void Segmenter::push(const JointSpan& span) {
 }
 
 bool Segmenter::ready() const {
-  if (at_.count == 0) return false;
-  return complete_ || !has_room() || piece(at_.count - 1).end >= static_cast<double>(at_.knot) + 3 * kLongest;
+  if (count() == 0) return false;
+  return complete_ || !has_room() || piece(count() - 1).end >= static_cast<double>(at_.knot) + 3 * kLongest;
 }
 
 /// The piece that holds at time t. A knot is rounded to the grid, so one within half a unit before a boundary
 /// belongs to what follows the boundary.
 std::size_t Segmenter::piece_at(double t, std::size_t hint) const {
-  while (hint + 1 < at_.count && piece(hint).end < t + 0.5) ++hint;
+  while (hint + 1 < count() && piece(hint).end < t + 0.5) ++hint;
   return hint;
 }
 
 /// The longest segment that is good, as far as a few trials find it.
-const Segmenter::Fit& Segmenter::choose() {
-  for (const Choice& known : choices_)
-    if (known.knot == at_.knot && known.states == at_.states) return known.fit;
-  Choice& choice = choices_[next_choice_++ % kChoices];
+Segmenter::Fit Segmenter::choose() {
   furthest_ = 0;
   const Reach far = reach();
-  choice.fit = far.at_end ? come_to_rest() : run_on(far);
-  // What more path might change is chosen anew.
-  const bool lasts = complete_ || furthest_ + 2 < at_.count;
-  choice.knot = lasts ? at_.knot : -1;
-  choice.states = at_.states;
-  return choice.fit;
+  return far.at_end ? come_to_rest() : run_on(far);
 }
 
 Segmenter::Fit Segmenter::come_to_rest() {
@@ -159,34 +148,41 @@ Segmenter::Fit Segmenter::come_to_rest() {
 /// A steady chain of segments of h on a bend has the velocity error w = M h^2 / 12 at every knot. Coming from
 /// w0, a segment that meets the position ends with M h^2 / 6 - w0; so the steady state is reached at once by
 /// h^2 (1/2 + w0 / 2w). From w0 = 0 that is h / sqrt(2).
+/// Where hardly anything bends, w0 is what the end of a bend has left, and alone sets how far a segment can
+/// go.
 double Segmenter::steadied(double h) const {
   const double knot = static_cast<double>(at_.knot);
   const Piece& p = piece(0);
   const Piece& e = piece(piece_at(knot + h, 0));
   const double x = knot - p.start, y = knot + h - e.start;
   double steady = 0, now = 0;  // of the axis that bends more, in tolerances
+  double left = 0;             // of the axis that is off more
   for (std::size_t i = 0; i < at_.axes.size(); ++i) {
     const auto& c = p.c[i];
     const auto& d = e.c[i];
     const double q = c[0] + x * (c[1] + x * (c[2] + x * c[3])), q1 = c[1] + x * (2 * c[2] + x * 3 * c[3]);
     const double r = d[0] + y * (d[1] + y * (d[2] + y * d[3])), r1 = d[1] + y * (2 * d[2] + y * 3 * d[3]);
     const double wanted = (0.5 * (q1 + r1) - (r - q) / h) / at_.axes[i].base_tolerance;
+    left = std::max(left, std::abs(q1 - at_.axes[i].v) * at_.axes[i].per_base_tolerance);
     if (std::abs(wanted) <= std::abs(steady)) continue;
     steady = wanted;
     now = (q1 - at_.axes[i].v) / at_.axes[i].base_tolerance;
   }
+  if (eased_ && std::abs(steady) * h < kStraight) return std::min(h, kTakenBack / left);
   if (std::abs(steady) * h < 1) return h;
   return h * std::sqrt(std::clamp(0.5 + 0.5 * now / steady, 0.15, 1.2));
 }
 
 Segmenter::Fit Segmenter::run_on(const Reach& far) {
-  double h = far.at_jump ? far.units : steadied(far.units);
+  double h = far.at_jump && !eased_ ? far.units : steadied(far.units);
+  const bool at_jump = far.at_jump && h >= kNearJump * far.units;
+  if (at_jump) h = far.units;
   const Piece& p = piece(far.piece);
   const double rest = p.end - static_cast<double>(at_.knot);
   bool halfway = false;
-  if (!far.at_jump && rest < 6 * h) {
+  if (!at_jump && rest < 6 * h) {
     // Even parts up to a jump, so that no short one is left over.
-    const bool run_end = complete_ && far.piece + 2 == at_.count;
+    const bool run_end = complete_ && far.piece + 2 == count();
     const double parts = std::ceil(rest / std::min(1.05 * h, kLongest));
     if (run_end || p.jump * h * h > kStopAtJump) {
       h = rest / parts;
@@ -200,10 +196,10 @@ Segmenter::Fit Segmenter::run_on(const Reach& far) {
   }
   const Fit f = fit(units, Goal::kRunOn);
   if (!f.good()) return shrink(f);
-  if (far.at_jump) return cross_jumps(f, far);
-  if (f.score() < 0.4 && h < 0.7 * kLongest && !halfway) {
+  if (at_jump) return cross_jumps(f, far);
+  if (f.score < 0.4 && h < 0.7 * kLongest && !halfway) {
     const Fit longer =
-        fit(static_cast<std::int32_t>(std::min(h * std::cbrt(0.8 / std::max(f.score(), 0.1)), kLongest)),
+        fit(static_cast<std::int32_t>(std::min(h * std::cbrt(0.8 / std::max(f.score, 0.1)), kLongest)),
             Goal::kRunOn);
     if (longer.good()) return longer;
   }
@@ -213,7 +209,7 @@ Segmenter::Fit Segmenter::run_on(const Reach& far) {
 /// From a jump on: perhaps the piece behind it is so short that the segment can go on to its end.
 Segmenter::Fit Segmenter::cross_jumps(Fit best, const Reach& far) {
   const double knot = static_cast<double>(at_.knot);
-  const std::size_t stop = complete_ ? at_.count - 1 : at_.count;
+  const std::size_t stop = complete_ ? count() - 1 : count();
   for (std::size_t i = far.piece; i < stop; ++i) {
     const double h = piece(i).end - knot, over = h - best.units;
     if (h > kLongest) break;
@@ -228,42 +224,66 @@ Segmenter::Fit Segmenter::cross_jumps(Fit best, const Reach& far) {
 Segmenter::Fit Segmenter::shrink(Fit failed) {
   Fit best = failed, f = failed;
   for (int i = 0; i < kTries && f.units > 2; ++i) {
-    const double factor = std::clamp(std::cbrt(0.7 / f.score()), 0.25, 0.8);
+    const double factor = std::clamp(std::cbrt(0.7 / f.score), 0.25, 0.8);
     f = fit(static_cast<std::int32_t>(factor * f.units), Goal::kRunOn);
-    if (f.score() < best.score() || (f.error <= 1 && best.error > 1)) best = f;
+    if (f.score < best.score || (f.error <= 1 && best.error > 1)) best = f;
     if (f.good()) break;
   }
   return best;
 }
 
-/// Whether what follows `f` can be fitted, too: until a segment comes that needs no proof. Remembers the next
-/// one.
-bool Segmenter::leads_on(const Fit& f, int depth) {
-  if (f.drift <= kSafeDrift) return true;
-  const Position before = at_;
-  apply(f);
-  const Fit following = choose();  // a copy: its place is needed again
-  const bool far_enough = depth <= 0 && f.units + following.units >= kProofUnits;
-  const bool proved =
-      following.error <= 1 && (far_enough || (depth > -kMoreProofs && leads_on(following, depth - 1)));
-  at_ = before;
-  if (proved) planned_ = following;
+void Segmenter::begin_chain(const Fit& fit) {
+  links_ = 1;
+  link(0) = {.at = at_, .fit = fit};
+}
+
+/// Finds the segment behind link i, unless it is known. False: none is good enough.
+bool Segmenter::extend_chain(std::size_t i) {
+  const std::size_t next = i + 1;
+  // What more path might change is chosen anew.
+  if (next < links_ && link(next).pushed != kWhateverComes && link(next).pushed != pushed_) links_ = next;
+  if (next == links_) {
+    Link& following = link(next);
+    at_ = link(i).at;
+    apply(link(i).fit);
+    following.at = at_;
+    following.fit = choose();
+    following.pushed = complete_ || furthest_ + 2 < count() ? kWhateverComes : pushed_;
+    ++links_;
+  }
+  return link(next).fit.error <= 1;
+}
+
+/// Whether what follows the chain's first segment can be fitted, too: until a segment comes that needs no
+/// proof.
+bool Segmenter::leads_on() {
+  const Position here = at_;
+  bool proved = false;
+  int depth = kProofDepth;
+  for (std::size_t i = 0;; ++i, --depth) {
+    proved = link(i).fit.drift <= kSafeDrift;
+    if (proved || !extend_chain(i)) break;
+    proved = depth <= 0 && link(i).fit.units + link(i + 1).fit.units >= kProofUnits;
+    if (proved || depth <= -kMoreProofs) break;
+  }
+  at_ = here;
   return proved;
 }
 
-Segmenter::Fit Segmenter::choose_safe() {
-  Fit f = planned_ ? *planned_ : choose();
-  planned_.reset();
-  Fit best = f;
+const Segmenter::Fit& Segmenter::choose_safe() {
+  if (links_ == 0) begin_chain(choose());
+  Fit best = link(0).fit;
   for (int i = 0; i < kProofs; ++i) {
-    if (f.error <= 1 && leads_on(f, kProofDepth)) return f;
-    planned_.reset();
+    const Fit f = link(0).fit;
+    if (f.error <= 1 && leads_on()) return link(0).fit;
+    links_ = 1;
     if (f.units < 4) break;
     // A dead end: a shorter segment has more to choose from.
-    f = fit(f.units * 5 / 8, Goal::kRunOn);
-    if (best.error > 1 ? f.error < best.error : f.score() < best.score()) best = f;
+    begin_chain(fit(f.units * 5 / 8, Goal::kRunOn));
+    if (best.error > 1 ? link(0).fit.error < best.error : link(0).fit.score < best.score) best = link(0).fit;
   }
-  return best;
+  begin_chain(best);
+  return link(0).fit;
 }
 
 void Segmenter::apply(const Fit& f) {
@@ -280,7 +300,6 @@ void Segmenter::apply(const Fit& f) {
     widen(a, std::abs(q - a.p));
   }
   at_.first += last;
-  at_.count -= last;
 }
 
 FittedSegment Segmenter::emit(const Fit& f) {
@@ -288,7 +307,14 @@ FittedSegment Segmenter::emit(const Fit& f) {
   ++counters_.segments;
   counters_.worst_ratio = std::max(counters_.worst_ratio, f.error);
   if (f.error > 1) ++counters_.loose;
-  apply(f);
+  if (links_ > 1) {
+    at_ = link(1).at;
+    ++first_link_;
+    --links_;
+  } else {
+    apply(f);
+    links_ = 0;
+  }
   return segment;
 }
 
@@ -303,6 +329,7 @@ std::optional<FittedSegment> Segmenter::settle() {
     f.acceleration[i] = static_cast<std::int32_t>(-raw);
     moving = moving || raw != 0;
   }
+  links_ = 0;
   if (moving) return emit(f);
   ended_ = true;
   return std::nullopt;

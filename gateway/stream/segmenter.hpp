@@ -51,7 +51,7 @@ class Segmenter {
   /// Begins a run from these exact states, at rest.
   void start(const std::array<AxisState, kAxesPerNode>& states);
   /// A span brings one piece, the last span two.
-  bool has_room() const { return at_.count + 2 <= kCapacity; }
+  bool has_room() const { return count() + 2 <= kCapacity; }
   /// Spans in order of time, the last one marked `last`. Only when has_room().
   void push(const JointSpan& span);
   /// nullopt: push more spans, or the run has ended.
@@ -90,8 +90,8 @@ class Segmenter {
     std::array<std::int32_t, kAxesPerNode> acceleration{};
     double error = 0;  ///< largest error / tolerance
     double drift = 0;  ///< how much of the tolerance the end state will cost the next segment
-    bool good() const { return score() <= 1; }
-    double score() const;
+    double score = 0;  ///< of both, over what is allowed
+    bool good() const { return score <= 1; }
   };
   /// Where the first guess ends: at `units`, because of a jump there (`at_jump`), the run's end, or the bend.
   struct Reach {
@@ -124,10 +124,28 @@ class Segmenter {
     double bend = 0;  ///< q''/2 there
   };
 
+  /// Everything that apply() changes.
+  struct Position {
+    std::size_t first = 0;  ///< of the run's pieces
+    std::int64_t knot = 0;
+    std::array<Axis, kAxesPerNode> axes{};
+    std::array<AxisState, kAxesPerNode> states{};
+  };
+
+  /// A segment that was chosen, and where it begins.
+  struct Link {
+    Position at;
+    Fit fit;
+    std::size_t pushed = kWhateverComes;  ///< pieces known, if more of them might have changed the choice
+  };
+  static constexpr std::size_t kWhateverComes = 0, kLinks = 16;
+
   const Piece& piece(std::size_t i) const {
     furthest_ = std::max(furthest_, i);
     return pieces_[(at_.first + i) & (kCapacity - 1)];
   }
+  std::size_t count() const { return pushed_ - at_.first; }
+  Link& link(std::size_t i) { return chain_[(first_link_ + i) % kLinks]; }
   Piece& place(std::size_t i) { return pieces_[(at_.first + i) & (kCapacity - 1)]; }
   void append(const Piece& piece);
   static void widen(Axis& axis, double offset);
@@ -143,34 +161,19 @@ class Segmenter {
   Extreme error_over(std::size_t axis, double a, double h, std::size_t last) const;
   Fit fit(std::int32_t units, Goal goal);
   void fit_axis(std::size_t axis, const Target& target, Fit& f) const;
-  const Fit& choose();
+  Fit choose();
+  void begin_chain(const Fit& fit);
+  bool extend_chain(std::size_t i);
   Fit come_to_rest();
   double steadied(double h) const;
   Fit run_on(const Reach& reach);
   Fit cross_jumps(Fit best, const Reach& reach);
   Fit shrink(Fit failed);
-  bool leads_on(const Fit& fit, int depth);
-  Fit choose_safe();
+  bool leads_on();
+  const Fit& choose_safe();
   void apply(const Fit& fit);
   FittedSegment emit(const Fit& fit);
   std::optional<FittedSegment> settle();
-
-  /// Everything that apply() changes.
-  struct Position {
-    std::size_t first = 0, count = 0;
-    std::int64_t knot = 0;
-    std::array<Axis, kAxesPerNode> axes{};
-    std::array<AxisState, kAxesPerNode> states{};
-  };
-
-  /// What was chosen at a knot with these states, whatever comes behind the pieces that were looked at.
-  struct Choice {
-    std::int64_t knot = -1;
-    std::array<AxisState, kAxesPerNode> states{};
-    Fit fit;
-  };
-  /// A segment is proved by those that follow, which are proved by theirs: each is wanted several times.
-  static constexpr std::size_t kChoices = 8;
 
   NodeAxes node_;
   Options options_;
@@ -180,12 +183,14 @@ class Segmenter {
   std::vector<Piece> pieces_;                 ///< ring of kCapacity
   Position at_;
   mutable std::size_t furthest_ = 0;  ///< piece that was looked at since the last choice began
-  std::array<Choice, kChoices> choices_{};
-  std::size_t next_choice_ = 0;
-  std::optional<Fit> planned_;  ///< the segment behind the last one given out, found when that one was proved
-  double run_end_ = 0;          ///< units; valid when complete_
+  std::size_t pushed_ = 0;            ///< pieces of the run
+  /// The next segments: each is proved by those that follow. links_ of them, from first_link_ on.
+  std::array<Link, kLinks> chain_{};
+  std::size_t first_link_ = 0, links_ = 0;
+  double run_end_ = 0;  ///< units; valid when complete_
   double start_offset_ = 0;
   bool complete_ = false, ended_ = true;
+  bool eased_ = false;  ///< the run's accelerations do not jump
 };
 
 }  // namespace kinebus

@@ -25,6 +25,10 @@ inline constexpr double kAim = 0.6;
 // jump for which J x^2 / tolerance is above this on both sides, and does not try to cross one above the
 // second.
 inline constexpr double kStopAtJump = 0.3, kHopeless = 2.5;
+// Under a limit of jerk: a velocity error w0 at the start of what hardly bends (what the bend asks for, times
+// h, is below the first) is taken back in h = the second / w0, and leaves some 0.6 w0. A jump is aimed at
+// from this share of the way to it.
+inline constexpr double kStraight = 3, kTakenBack = 3, kNearJump = 0.7;
 
 // End states.
 // Weight of velocity against position at the end: by the length of the next segment over this, within these.
@@ -34,7 +38,9 @@ inline constexpr double kMostEndError = 0.55;
 // A velocity error w at a knot costs the next segment w h / 3 when it is taken back over two segments.
 inline constexpr double kVelocityCost = 1.0 / 3;
 // Tolerances that the end state may cost: without a proof that it can be followed, and at all.
-inline constexpr double kSafeDrift = 0.5, kMostDrift = 2.5;
+// Under a limit of jerk bends begin and end all the time, each with a velocity error that the last segment
+// did not have: there a good state costs 2.1 and the position's share, and proofs hardly ever fail.
+inline constexpr double kSafeDrift = 0.5, kMostDrift = 2.5, kMostEasedDrift = 3.5;
 // Segments looked ahead for the proof; more if those are shorter than this (4 ms); other ends tried if it
 // fails.
 inline constexpr int kProofDepth = 2, kMoreProofs = 8, kProofs = 16;

@@ -6,6 +6,10 @@
 #include <numbers>
 #include <random>
 
+#include "gateway/gcode/canonical.hpp"
+#include "gateway/motion/motion_limits.hpp"
+#include "gateway/motion/planner.hpp"
+
 namespace kinebus::testing {
 
 namespace {
@@ -31,9 +35,8 @@ void trapezoid(std::vector<Phase>& out, Phase phase, double length, double v0, d
   add(length - down, v, -a, (v - v1) / a);
 }
 
-}  // namespace
-
-std::vector<Phase> printed_lines(std::uint32_t seed, const PrintedLines& shape) {
+/// Where the lines end, and where the first begins.
+std::vector<Point> corners(std::uint32_t seed, const PrintedLines& shape) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
   const auto count = static_cast<std::size_t>(shape.lines);
@@ -47,6 +50,14 @@ std::vector<Phase> printed_lines(std::uint32_t seed, const PrintedLines& shape) 
     p[kE] += length * shape.extrusion * (0.5 + unit(random));
     if (std::hypot(p[kX], p[kY]) < shape.radius_mm) points.push_back(p);
   }
+  return points;
+}
+
+}  // namespace
+
+std::vector<Phase> printed_lines(std::uint32_t seed, const PrintedLines& shape) {
+  const std::vector<Point> points = corners(seed, shape);
+  const std::size_t count = points.size() - 1;
   std::vector<double> lengths(count), cut(count + 1, 0.0), speeds(count + 1, 0.0);
   std::vector<Point> tangents(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -90,6 +101,30 @@ std::vector<Phase> printed_lines(std::uint32_t seed, const PrintedLines& shape) 
   }
   out.back().last = true;
   return out;
+}
+
+std::vector<Phase> eased_lines(const Kinematics& kinematics, std::uint32_t seed, const PrintedLines& shape,
+                               double jerk_mm_per_s3) {
+  MotionLimits limits;
+  limits.tool_jerk_mm_per_s3 = jerk_mm_per_s3;
+  for (std::size_t j = 0; j < kMaxJoints; ++j)
+    limits.joint_jerk_per_s3[j] = jerk_mm_per_s3 * limits.joint_accel_per_s2[j] / limits.tool_accel_mm_per_s2;
+  Planner planner(kinematics, limits);
+  std::vector<Phase> out;
+  Phase phase;
+  std::uint32_t line = 0;
+  bool taken = true;
+  const auto add = [&](const canonical::Command& command) {
+    taken = taken && planner.add({line++, command});
+    while (planner.next(phase)) out.push_back(phase);
+  };
+  const std::vector<Point> points = corners(seed, shape);
+  add(canonical::SetPosition{points.front(), Frame::kPart});
+  for (std::size_t i = 1; i < points.size(); ++i)
+    add(canonical::Feed{points[i], Frame::kPart, shape.speed_mm_per_s, 0});
+  taken = taken && planner.finish();
+  while (planner.next(phase)) out.push_back(phase);
+  return taken ? out : std::vector<Phase>{};
 }
 
 std::vector<Phase> smooth_curve(std::uint32_t seed, const SmoothCurve& shape) {

@@ -1,10 +1,11 @@
 #pragma once
-// Motions to stream, as a planner makes them: printed lines with blended corners, and smooth curves in cubic
-// pieces.
+// Motions to stream, as a planner makes them: printed lines with blended corners, the same with limited jerk,
+// and smooth curves in cubic pieces.
 
 #include <cstdint>
 #include <vector>
 
+#include "gateway/kinematics/kinematics.hpp"
 #include "gateway/motion/trajectory.hpp"
 
 namespace kinebus::testing {
@@ -20,6 +21,10 @@ struct PrintedLines {
 };
 /// Lines in random directions at z = 10 mm; rest to rest, the last phase marked.
 std::vector<Phase> printed_lines(std::uint32_t seed, const PrintedLines& shape);
+
+/// Such lines as the planner plans them under a limit of jerk.
+std::vector<Phase> eased_lines(const Kinematics& kinematics, std::uint32_t seed, const PrintedLines& shape,
+                               double jerk_mm_per_s3);
 
 struct SmoothCurve {
   double seconds = 5;
