@@ -37,6 +37,8 @@ constexpr std::string_view kInproc = "inproc";
 /// pages).
 constexpr std::size_t kHeapBytes = 24 << 20;
 constexpr double kBytesPerGib = 1073741824;
+/// Of the loop's time (StreamHub::Options::share).
+constexpr double kNearShare = 0.15, kFarShare = 0.6;
 
 template <typename T>
 T must(Result<T, std::string> result, const std::string& what = {}) {
@@ -159,12 +161,13 @@ Service::Service(const Arguments& arguments)
       worker_(loop_),
       server_(gateway_, machine_, *store_, worker_, machine_file_, control_,
               server_options(jobs_folder_, machine_file_, bus_name_, [this] { begins_anew_ = true; })),
-      hub_(loop_),
-      host_(loop_, hub_, server_),
+      near_(loop_, {.share = kNearShare}),
+      hub_(loop_, {.share = kFarShare}),
+      host_(loop_, near_, hub_, server_),
       http_host_(loop_, hub_),
       serial_files_(*store_, worker_, gateway_, server_),
       serial_(loop_, gateway_, serial_files_, control_, arguments.serial),
-      usb_(loop_, hub_, arguments.usb,
+      usb_(loop_, near_, arguments.usb,
            [this](LocalTime now) {
              return server_.open(now, {.transport = "usb", .token = {}, .lasting = true});
            }),
@@ -253,12 +256,15 @@ void Service::listen_http(const std::string& credentials) {
 
 void Service::run(const volatile std::sig_atomic_t* quit, volatile std::sig_atomic_t* reread) {
   RecordedBus recorded(std::move(bus_), recorder_);
+  for (StreamHub* const hub : {&near_, &hub_}) hub->keep_clear_of([this] { return gateway_.sync_due(); });
+  worker_.pass(hub_.gate(worker_.fd()));
   const ServiceManager manager;
   manager.tell("READY=1");
   Daemon daemon(loop_, recorded, gateway_, manager);
   daemon.add(recorder_);
   daemon.add(host_);
   daemon.add(http_host_);
+  daemon.add(near_);
   daemon.add(hub_);
   daemon.add(serial_);
   if (!arguments_.usb.empty()) daemon.add(usb_);

@@ -66,6 +66,8 @@ class Service {
   std::optional<http::Server> http_;
   std::optional<UsersFile> users_;
   std::optional<Announcer> announcer_;
+  StreamHub
+      near_;  ///< the local socket and USB: whoever stands at the machine does not wait behind a network
   StreamHub hub_;
   JobLinkHost host_;
   HttpHost http_host_;

@@ -60,8 +60,14 @@ void Daemon::exchange_frames() {
         break;
     }
   }
+  // Nodes learn the time from it: it does not wait until the next piece of the path is planned.
+  if (loop_.now() >= gateway_.sync_due()) send_frames();
+  if (const LocalTime now = loop_.now(); now >= gateway_.next_deadline()) gateway_.on_time(now);
+  send_frames();
+}
+
+void Daemon::send_frames() {
   LocalTime now = loop_.now();
-  if (now >= gateway_.next_deadline()) gateway_.on_time(now);
   while (bus_.can_send(now)) {
     const auto frame = gateway_.next_frame(now);
     if (!frame) break;

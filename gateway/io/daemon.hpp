@@ -27,6 +27,7 @@ class Daemon {
 
  private:
   void exchange_frames();
+  void send_frames();
   void report_events();
   LocalTime next_deadline() const;
 

@@ -12,7 +12,6 @@
 namespace kinebus {
 HttpHost::HttpHost(EventLoop& loop, StreamHub& hub)
     : loop_(loop), hub_(hub), listener_(loop, [this](int fd, std::string who) {
-        hub_.let_in();
         std::string peer = peer_of(fd);
         std::unique_ptr<ByteStream> stream =
             tls_ ? tls_->open(fd) : std::unique_ptr<ByteStream>(std::make_unique<SocketStream>(fd));
@@ -26,7 +25,7 @@ std::string HttpHost::listen(const std::string& address, const std::filesystem::
                              http::Server& server) {
   server_ = &server;
   if (std::string wrong = listener_.listen_tcp(address); !wrong.empty()) return wrong;
-  hub_.add_door(listener_.fd());
+  listener_.pass(hub_.gate(listener_.fd()));
   if (listener_.loopback()) return {};
   auto tls = TlsContext::server(credentials);
   if (!tls) return tls.error();

@@ -55,21 +55,24 @@ Result<std::string, std::string> token_of(const std::filesystem::path& path, std
   return token;
 }
 
-JobLinkHost::JobLinkHost(EventLoop& loop, StreamHub& hub, JobLinkServer& server)
+JobLinkHost::JobLinkHost(EventLoop& loop, StreamHub& near, StreamHub& far, JobLinkServer& server)
     : loop_(loop),
-      hub_(hub),
+      near_(near),
+      far_(far),
       server_(server),
       local_(loop,
              [this](int fd, std::string who) {
                std::string peer = peer_of(fd);
-               add(std::make_unique<SocketStream>(fd),
-                   {.transport = std::move(who), .token = {}, .peer = std::move(peer)});
+               near_.add(std::make_unique<SocketStream>(fd),
+                         server_.open(loop_.now(),
+                                      {.transport = std::move(who), .token = {}, .peer = std::move(peer)}));
              }),
       tcp_(loop, [this](int fd, std::string who) {
-        hub_.let_in();
         std::string peer = peer_of(fd);
-        add(tls_->open(fd),
-            {.transport = std::move(who), .token = token_, .peer = std::move(peer), .remote = true});
+        far_.add(tls_->open(fd), server_.open(loop_.now(), {.transport = std::move(who),
+                                                            .token = token_,
+                                                            .peer = std::move(peer),
+                                                            .remote = true}));
       }) {}
 
 std::string JobLinkHost::listen_local(const std::string& path, const std::string& group) {
@@ -84,7 +87,7 @@ std::string JobLinkHost::listen_tcp(const std::string& address, const std::files
   if (!token) return token.error();
   token_ = *token;
   std::string wrong = tcp_.listen_tcp(address);
-  if (wrong.empty()) hub_.add_door(tcp_.fd());
+  if (wrong.empty()) tcp_.pass(far_.gate(tcp_.fd()));
   return wrong;
 }
 
@@ -95,10 +98,6 @@ void JobLinkHost::on_time(LocalTime now) {
 
 void JobLinkHost::on_event(const MachineEvent& event) {
   server_.on_event(loop_.now(), event);
-}
-
-void JobLinkHost::add(std::unique_ptr<ByteStream> stream, SessionInfo info) {
-  hub_.add(std::move(stream), server_.open(loop_.now(), std::move(info)));
 }
 
 }  // namespace kinebus

@@ -17,16 +17,14 @@ namespace kinebus {
 
 class JobLinkHost : public DaemonPart {
  public:
-  JobLinkHost(EventLoop& loop, StreamHub& hub, JobLinkServer& server);
+  /// `near`: of who is at this computer; `far`: of who comes by the network.
+  JobLinkHost(EventLoop& loop, StreamHub& near, StreamHub& far, JobLinkServer& server);
 
   /// Empty: listening.
   std::string listen_local(const std::string& path, const std::string& group);
   /// TLS with the identity and the token kept in `credentials` (made when they are not there). Empty:
   /// listening.
   std::string listen_tcp(const std::string& address, const std::filesystem::path& credentials);
-  /// A stream that came another way (USB): the job link is spoken on it.
-  void add(std::unique_ptr<ByteStream> stream, SessionInfo info);
-
   std::string tls_fingerprint() const { return tls_ ? tls_->fingerprint() : std::string(); }
   int tcp_port() const { return tcp_.port(); }
 
@@ -36,7 +34,7 @@ class JobLinkHost : public DaemonPart {
 
  private:
   EventLoop& loop_;
-  StreamHub& hub_;
+  StreamHub &near_, &far_;
   JobLinkServer& server_;
   std::optional<TlsContext> tls_;
   std::string token_;

@@ -97,7 +97,7 @@ std::string Listener::listen_local(const std::string& path, const std::string& g
       return because("cannot give it to the group " + group);
   }
   if (::listen(fd_, kBacklog) != 0) return because("cannot listen");
-  loop_.watch(fd_, EPOLLIN, [this](std::uint32_t) { accept_client(); });
+  loop_.watch(fd_, EPOLLIN, [this](std::uint32_t) { on_knock(); });
   return {};
 }
 
@@ -122,7 +122,7 @@ std::string Listener::listen_tcp(const std::string& address) {
     taken_ = errno == EADDRINUSE;
     return address + ": cannot listen: " + std::strerror(errno);
   }
-  loop_.watch(fd_, EPOLLIN, [this](std::uint32_t) { accept_client(); });
+  loop_.watch(fd_, EPOLLIN, [this](std::uint32_t) { on_knock(); });
   return {};
 }
 
@@ -142,6 +142,12 @@ bool Listener::loopback() const {
     return IN6_IS_ADDR_LOOPBACK(&reinterpret_cast<const sockaddr_in6&>(address).sin6_addr);
   const std::uint32_t host = ntohl(reinterpret_cast<const sockaddr_in&>(address).sin_addr.s_addr);
   return address.ss_family == AF_INET && (host >> 24U) == IN_LOOPBACKNET;
+}
+
+void Listener::on_knock() {
+  if (gate_ != nullptr && !gate_->begins()) return;
+  accept_client();
+  if (gate_ != nullptr) gate_->ends();
 }
 
 void Listener::accept_client() {

@@ -7,6 +7,7 @@
 
 #include "gateway/io/byte_stream.hpp"
 #include "gateway/io/event_loop.hpp"
+#include "gateway/io/work_gate.hpp"
 
 namespace kinebus {
 
@@ -26,6 +27,8 @@ class Listener {
   std::string listen_tcp(const std::string& address);
   /// Why listen_tcp failed: another program has the port.
   bool taken() const { return taken_; }
+  /// Whom it does not let in waits at the port.
+  void pass(WorkGate& gate) { gate_ = &gate; }
   /// The port in use (TCP).
   int port() const;
   /// Where the loop waits for clients; -1: it does not listen.
@@ -34,9 +37,11 @@ class Listener {
   bool loopback() const;
 
  private:
+  void on_knock();
   void accept_client();
   EventLoop& loop_;
   OnClient on_client_;
+  WorkGate* gate_ = nullptr;
   int fd_ = -1;
   bool taken_ = false;
   std::string path_;

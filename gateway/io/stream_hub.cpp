@@ -18,6 +18,8 @@ namespace kinebus {
 namespace {
 /// However much was used: a stop is heard soon all the same.
 constexpr LocalTime kMostRest = std::chrono::milliseconds{20};
+/// After what is due has come: its echo and its stamp.
+constexpr LocalTime kAfterwards = std::chrono::microseconds{700};
 /// Of the streams that are ready, in one turn.
 constexpr int kMostReady = 16;
 
@@ -74,6 +76,22 @@ bool StreamHub::add(std::unique_ptr<ByteStream> stream, std::unique_ptr<ByteSess
   return true;
 }
 
+WorkGate& StreamHub::gate(int fd) {
+  doors_.push_back(fd);
+  return *this;
+}
+
+/// One at least in a turn, whatever time is left: streams that always have something would keep it out.
+bool StreamHub::begins() {
+  gate_opened_ = monotonic_now();
+  static_cast<void>(time_left());
+  return !in_the_way(gate_opened_);
+}
+
+void StreamHub::ends() {
+  longest_.note(gate_opened_, monotonic_now());
+}
+
 void StreamHub::close(Pair& pair, const char* why) {
   pair.closed = true;
   ::epoll_ctl(epoll_, EPOLL_CTL_DEL, pair.stream->fd(), nullptr);
@@ -88,8 +106,21 @@ bool StreamHub::time_left() {
   if (work_until_ == LocalTime::max()) {
     work_until_ = now + options_.work_per_turn;
     began_ = thread_time();
+    if (const LocalTime due = due_ ? due_() : LocalTime::max(); due != LocalTime::max()) {
+      clear_to_ = due + loop_.behind();
+      clear_from_ = clear_to_ - longest_.lately();
+    }
   }
-  return now < work_until_;
+  return now < work_until_ && !in_the_way(now);
+}
+
+void StreamHub::LongestPiece::note(LocalTime begin, LocalTime end) {
+  if (end - begin_ > kWindow) {
+    before_ = now_;
+    now_ = kLeast;
+    begin_ = end;
+  }
+  now_ = std::clamp(end - begin, now_, std::max(now_, kMost));
 }
 
 /// Of the streams that are ready, 16 a turn. One is asked for at a time: the kernel puts who was told behind
@@ -99,7 +130,9 @@ void StreamHub::on_some_ready() {
   for (int i = 0; i < kMostReady && time_left(); ++i) {
     epoll_event event{};
     if (::epoll_wait(epoll_, &event, 1, 0) < 1) return;
+    const LocalTime begin = monotonic_now();
     on_ready(*static_cast<Pair*>(event.data.ptr), event.events);
+    longest_.note(begin, monotonic_now());
   }
 }
 
@@ -160,10 +193,12 @@ void StreamHub::pay(LocalTime now) {
   if (work_until_ != LocalTime::max())
     credit_ = std::max(-options_.burst, credit_ - (thread_time() - began_));
   work_until_ = LocalTime::max();
-  if (credit_ >= LocalTime{0}) return;
-  const LocalTime rest{static_cast<std::int64_t>(static_cast<double>(-credit_.count()) / options_.share)};
-  rest_until_ = now + std::min(rest, kMostRest);
-  watch_all(0);
+  if (in_the_way(monotonic_now())) rest_until_ = clear_to_ - loop_.behind() + kAfterwards;
+  if (credit_ < LocalTime{0}) {
+    const LocalTime rest{static_cast<std::int64_t>(static_cast<double>(-credit_.count()) / options_.share)};
+    rest_until_ = std::max(rest_until_, now + std::min(rest, kMostRest));
+  }
+  if (rest_until_ != LocalTime{0}) watch_all(0);
 }
 
 void StreamHub::watch_all(std::uint32_t events) {
@@ -182,12 +217,13 @@ void StreamHub::on_time(LocalTime now) {
   // Sessions may make new streams' sessions speak, and close each other: the list is walked by index.
   const std::size_t count = pairs_.size();
   std::size_t served = 0;
-  if (count > 0) static_cast<void>(time_left());
   for (; served < count; ++served) {
     Pair& pair = *pairs_[(first_ + served) % count];
     if (pair.closed) continue;
-    if (served > 0 && !time_left()) break;
+    const LocalTime begin = monotonic_now();
+    if (!time_left() && (served > 0 || in_the_way(begin))) break;
     serve(pair, now);
+    longest_.note(begin, monotonic_now());
   }
   first_ = count > 0 ? (first_ + served) % count : 0;
   pay(now);

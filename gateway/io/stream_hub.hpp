@@ -2,18 +2,24 @@
 // Joins streams with the sessions that speak on them, within the daemon's loop: moves bytes both ways in
 // bounded portions, so that no client keeps the loop from the bus.
 
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "gateway/io/byte_stream.hpp"
 #include "gateway/io/daemon_part.hpp"
 #include "gateway/io/event_loop.hpp"
+#include "gateway/io/work_gate.hpp"
 #include "gateway/sessions/byte_session.hpp"
 
 namespace kinebus {
 
-class StreamHub : public DaemonPart {
+class StreamHub : public DaemonPart, private WorkGate {
  public:
   struct Options {
     std::size_t max_streams = 96;
@@ -38,13 +44,15 @@ class StreamHub : public DaemonPart {
   StreamHub(const StreamHub&) = delete;
   StreamHub& operator=(const StreamHub&) = delete;
 
+  /// Nothing is begun that might not be done when `due()`, a time of the loop, comes (max: none); until then
+  /// streams rest. What may take so long is what has lately taken longest.
+  void keep_clear_of(std::function<LocalTime()> due) { due_ = std::move(due); }
+
   /// False: too many streams, both are destroyed.
   bool add(std::unique_ptr<ByteStream> stream, std::unique_ptr<ByteSession> session);
 
-  /// A listener's fd in the loop: nobody is let in there either while streams rest.
-  void add_door(int fd) { doors_.push_back(fd); }
-  /// Somebody is let in: what follows, up to add(), is streams' work, too.
-  void let_in() { static_cast<void>(time_left()); }
+  /// For work that comes by this fd of the loop: it is not watched while streams rest.
+  WorkGate& gate(int fd);
 
   /// Lets every session see the time, sends what waits, and ends what is to end. Called once a turn of the
   /// loop.
@@ -56,12 +64,26 @@ class StreamHub : public DaemonPart {
 
  private:
   struct Pair;
+  /// The longest piece of work of the last seconds: a request carried out, an answer written.
+  class LongestPiece {
+   public:
+    void note(LocalTime begin, LocalTime end);
+    LocalTime lately() const { return std::max(now_, before_); }
+
+   private:
+    static constexpr LocalTime kWindow = std::chrono::seconds{5}, kLeast = std::chrono::microseconds{100},
+                               kMost = std::chrono::milliseconds{10};
+    LocalTime now_ = kLeast, before_ = std::chrono::milliseconds{5}, begin_{0};
+  };
   void on_some_ready();
   void on_ready(Pair& pair, std::uint32_t events);
   void pay(LocalTime now);
+  bool begins() override;
+  void ends() override;
   void watch_all(std::uint32_t events);
   void serve(Pair& pair, LocalTime now);
   bool time_left();
+  bool in_the_way(LocalTime now) const { return clear_from_ <= now && now < clear_to_; }
   void send(Pair& pair);
   void watch(Pair& pair, bool has_output);
   void close(Pair& pair, const char* why);
@@ -76,6 +98,10 @@ class StreamHub : public DaemonPart {
   LocalTime credit_, paid_{0};               ///< what streams may use now; when that was counted
   LocalTime began_{0};                       ///< the loop's processor time when the turn's work began
   LocalTime rest_until_{0};
+  LocalTime gate_opened_{0};
+  std::function<LocalTime()> due_;
+  LongestPiece longest_;
+  LocalTime clear_from_{0}, clear_to_{0};  ///< in this turn, by the computer's time
 };
 
 }  // namespace kinebus

@@ -56,21 +56,32 @@ void WorkerThread::run() {
     lock.lock();
     done_.push_back(std::move(piece.done));
     lock.unlock();
-    const std::uint64_t one = 1;
-    [[maybe_unused]] const ssize_t written = ::write(event_, &one, sizeof one);
+    wake_loop();
     lock.lock();
   }
+}
+
+void WorkerThread::wake_loop() const {
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const ssize_t written = ::write(event_, &one, sizeof one);
 }
 
 void WorkerThread::take_done() {
   std::uint64_t count = 0;
   [[maybe_unused]] const ssize_t size = ::read(event_, &count, sizeof count);
-  std::deque<std::function<void()>> done;
   {
     const std::lock_guard lock(mutex_);
-    done.swap(done_);
+    for (auto& call : done_) told_.push_back(std::move(call));
+    done_.clear();
   }
-  for (const auto& call : done) call();
+  // Each may cost as much as a request; the others come back in the next turn.
+  for (bool first = true; !told_.empty(); first = false) {
+    if (gate_ != nullptr && (!first || !gate_->begins())) return wake_loop();
+    const auto call = std::move(told_.front());
+    told_.pop_front();
+    call();
+    if (gate_ != nullptr) gate_->ends();
+  }
 }
 
 }  // namespace kinebus

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "gateway/io/event_loop.hpp"
+#include "gateway/io/work_gate.hpp"
 #include "gateway/sessions/worker.hpp"
 #include "protocol/host/inheriting_mutex.hpp"
 #include "protocol/host/wake_up.hpp"
@@ -21,6 +22,10 @@ class WorkerThread : public Worker {
   WorkerThread(const WorkerThread&) = delete;
   WorkerThread& operator=(const WorkerThread&) = delete;
 
+  /// What is done is told through it; `fd` below is what brings it.
+  void pass(WorkGate& gate) { gate_ = &gate; }
+  int fd() const { return event_; }
+
   void post(std::function<void()> work, std::function<void()> done) override;
 
  private:
@@ -28,15 +33,18 @@ class WorkerThread : public Worker {
     std::function<void()> work, done;
   };
   void run();
+  void wake_loop() const;
   void take_done();
 
   EventLoop& loop_;
   int event_ = -1;
+  WorkGate* gate_ = nullptr;
   InheritingMutex mutex_;
   WakeUp wake_;
   std::deque<Piece> waiting_;               // by mutex_
   std::deque<std::function<void()>> done_;  // by mutex_
   bool ends_ = false;                       // by mutex_
+  std::deque<std::function<void()>> told_;  ///< of those done, what is told next
   std::thread thread_;
 };
 

@@ -29,6 +29,8 @@ class BusVoice {
   std::optional<CanFrame> next_frame(BusTime now);
   /// Of what is not due yet; `otherwise` when that is earlier.
   BusTime next_deadline(BusTime now, BusTime otherwise) const;
+  /// max: none is to come.
+  BusTime sync_due() const { return speaks_ ? sync_.next_deadline() : BusTime::max(); }
   const BusLoad& load() const { return load_; }
 
  private:

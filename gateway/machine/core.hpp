@@ -58,6 +58,7 @@ class Gateway::Core {
   std::optional<CanFrame> next_frame(BusTime now);
   std::optional<CanFrame> next_plain_frame(BusTime now);  ///< without the session's vouchers
   BusTime next_deadline() const;
+  BusTime sync_due() const { return voice_.sync_due(); }
   void on_time(BusTime now);
   void on_stall(BusTime now, BusTime length, const Sentence& why);
   void on_bus_failure(BusTime now, std::string_view what);

@@ -26,6 +26,9 @@ std::optional<CanFrame> Gateway::next_frame(BusTime now) {
 BusTime Gateway::next_deadline() const {
   return core_->next_deadline();
 }
+BusTime Gateway::sync_due() const {
+  return core_->sync_due();
+}
 void Gateway::on_stall(BusTime now, BusTime length, const Sentence& why) {
   core_->on_stall(now, length, why);
 }

@@ -68,6 +68,7 @@ class Gateway {
   /// Pull when the bus can take a frame, not ahead: the order is decided late.
   std::optional<CanFrame> next_frame(BusTime now);
   BusTime next_deadline() const;  ///< when on_time is next needed: always later than the last time given
+  BusTime sync_due() const;       ///< when next_frame() has the next SYNC; max: the bus is not spoken to
   /// The owner was not run for `length`, up to now, and so nothing was heard or said; before the frames that
   /// waited.
   void on_stall(BusTime now, BusTime length, const Sentence& why);
