@@ -108,7 +108,7 @@ bool StreamHub::time_left() {
     began_ = thread_time();
     if (const LocalTime due = due_ ? due_() : LocalTime::max(); due != LocalTime::max()) {
       clear_to_ = due + loop_.behind();
-      clear_from_ = clear_to_ - longest_.lately();
+      clear_from_ = clear_to_ - std::min(longest_.lately(), options_.most_kept_clear);
     }
   }
   return now < work_until_ && !in_the_way(now);
@@ -120,7 +120,7 @@ void StreamHub::LongestPiece::note(LocalTime begin, LocalTime end) {
     now_ = kLeast;
     begin_ = end;
   }
-  now_ = std::clamp(end - begin, now_, std::max(now_, kMost));
+  now_ = std::max(now_, end - begin);
 }
 
 /// Of the streams that are ready, 16 a turn. One is asked for at a time: the kernel puts who was told behind

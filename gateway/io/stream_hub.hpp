@@ -34,6 +34,8 @@ class StreamHub : public DaemonPart, private WorkGate {
     /// and the kernel stops who never sleeps (sched_rt_runtime_us) for 50 ms each second.
     double share = 0.6;
     LocalTime burst = std::chrono::milliseconds{200};
+    /// Nothing is put off for longer because something is due (keep_clear_of()).
+    LocalTime most_kept_clear = std::chrono::milliseconds{10};
     /// A stall of the loop so long is told to the sessions: they allow their clients several times that.
     LocalTime absence = std::chrono::seconds{1};
   };
@@ -71,8 +73,7 @@ class StreamHub : public DaemonPart, private WorkGate {
     LocalTime lately() const { return std::max(now_, before_); }
 
    private:
-    static constexpr LocalTime kWindow = std::chrono::seconds{5}, kLeast = std::chrono::microseconds{100},
-                               kMost = std::chrono::milliseconds{10};
+    static constexpr LocalTime kWindow = std::chrono::seconds{5}, kLeast = std::chrono::microseconds{100};
     LocalTime now_ = kLeast, before_ = std::chrono::milliseconds{5}, begin_{0};
   };
   void on_some_ready();
