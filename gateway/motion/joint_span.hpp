@@ -15,7 +15,6 @@ struct JointSpan {
   double duration_s = 0;
   std::array<std::array<double, 4>, kMaxJoints> coefficients{};  ///< [joint][power of (t - start)], mm or rad
   bool last = false;                                             ///< the run ends at rest with this span
-  bool breaks_after = false;  ///< the acceleration jumps at this span's end: a good place for a knot
   std::uint32_t line = 0;
 
   double position(int joint, double t) const {
