@@ -121,6 +121,11 @@ bool Segmenter::ready() const {
   return complete_ || !has_room() || piece(at_.count - 1).end >= static_cast<double>(at_.knot) + 3 * kLongest;
 }
 
+double Segmenter::known() const {
+  if (complete_) return kForever;
+  return pieces_[(at_.first + at_.count - 1) & (kCapacity - 1)].end - static_cast<double>(at_.knot);
+}
+
 /// The piece that holds at time t. A knot is rounded to the grid, so one within half a unit before a boundary
 /// belongs to what follows the boundary.
 std::size_t Segmenter::piece_at(double t, std::size_t hint) const {
@@ -180,7 +185,7 @@ double Segmenter::steadied(double h) const {
 }
 
 Segmenter::Fit Segmenter::run_on(const Reach& far) {
-  double h = far.at_jump ? far.units : steadied(far.units);
+  double h = far.at_jump ? far.units : std::min(steadied(far.units), known());
   const Piece& p = piece(far.piece);
   const double rest = p.end - static_cast<double>(at_.knot);
   bool halfway = false;
@@ -202,8 +207,9 @@ Segmenter::Fit Segmenter::run_on(const Reach& far) {
   if (!f.good()) return shrink(f);
   if (far.at_jump) return cross_jumps(f, far);
   if (f.score() < 0.4 && h < 0.7 * kLongest && !halfway) {
+    const double most = std::min(kLongest, known());
     const Fit longer =
-        fit(static_cast<std::int32_t>(std::min(h * std::cbrt(0.8 / std::max(f.score(), 0.1)), kLongest)),
+        fit(static_cast<std::int32_t>(std::min(h * std::cbrt(0.8 / std::max(f.score(), 0.1)), most)),
             Goal::kRunOn);
     if (longer.good()) return longer;
   }
@@ -243,11 +249,13 @@ bool Segmenter::leads_on(const Fit& f, int depth) {
   const Position before = at_;
   apply(f);
   const Fit following = choose();  // a copy: its place is needed again
+  // One that more path might change proves something, but is chosen anew.
+  const bool lasts = complete_ || furthest_ + 2 < at_.count;
   const bool far_enough = depth <= 0 && f.units + following.units >= kProofUnits;
   const bool proved =
       following.error <= 1 && (far_enough || (depth > -kMoreProofs && leads_on(following, depth - 1)));
   at_ = before;
-  if (proved) planned_ = following;
+  if (proved) planned_ = lasts ? std::optional(following) : std::nullopt;
   return proved;
 }
 

@@ -132,6 +132,8 @@ class Segmenter {
   void append(const Piece& piece);
   static void widen(Axis& axis, double offset);
   bool ready() const;
+  /// How far the path is known, units from the knot.
+  double known() const;
   std::size_t piece_at(double t, std::size_t hint) const;
   bool stops_at(std::size_t index, double b) const;
   Reach reach() const;
