@@ -350,5 +350,39 @@ TEST(BacklashTakeUp, AnewRunTakesNothingOfTheLast) {
   EXPECT_EQ(out[0].line, 0u);
 }
 
+TEST(BacklashTakeUp, ATurnBesideASpanIsNoneOfIts) {
+  // Parabolas and cubics that turn just before their beginning, or just behind their end.
+  for (const double vertex : {-0.4, 1.4}) {
+    for (const double cubic : {0.0, 0.2}) {
+      BacklashTakeUp t = take_up();
+      const double way = vertex < 0 ? 1 : -1;  // grows from 0 to 1 s
+      JointSpan s;
+      s.duration_s = 1;
+      s.last = true;
+      s.coefficients[0] = {0, -2 * way * vertex, way, cubic * way};
+      (void)run(t, {s});
+      EXPECT_EQ(t.side(0), 1) << vertex << " " << cubic;
+    }
+  }
+}
+
+TEST(BacklashTakeUp, AJointThatCreepsBackSpanBySpanHasTurned) {
+  BacklashTakeUp t = take_up();
+  std::vector<JointSpan> plan;
+  for (int k = 0; k < 20; ++k) plan.push_back(move(0.1 * k, 0.1, -0.0004 * k, -0.0004 * (k + 1), k == 19));
+  (void)run(t, plan);
+  EXPECT_EQ(t.side(0), -1);
+  EXPECT_EQ(t.side_at(0, 0.2), 1);
+}
+
+TEST(BacklashTakeUp, TheRestOfATakeUpBelongsToTheLastLine) {
+  BacklashTakeUp t = take_up();
+  JointSpan back = move(0, 0.004, 0, -0.02, true);
+  back.line = 31;
+  const auto out = run(t, {back});
+  ASSERT_GT(out.size(), 1u);
+  for (const JointSpan& s : out) EXPECT_EQ(s.line, 31u);
+}
+
 }  // namespace
 }  // namespace kinebus

@@ -133,5 +133,17 @@ TEST(BusBudget, WhatIsMadeMustReachOverTheReserve) {
   EXPECT_EQ(rate(streams, 1'000, false), 1);
 }
 
+TEST(BusBudget, AFewRecordsThatAreDueSoonSlowItAsWell) {
+  for (const std::int32_t duration : {5, 40, 1000}) {
+    for (const std::int64_t now : {-6'000, -1'500, -200}) {
+      const std::vector<NodeStream> streams(2, waiting(20, duration));
+      const double is = rate(streams, now), exact = least_of_deadlines(streams, now);
+      EXPECT_GE(is, exact - 1e-9) << duration << " " << now;
+      // The first of them are looked at together, as far as 25 ms reach.
+      EXPECT_LE(is, 1.1 * exact + (now == -200 ? 0.2 : 0)) << duration << " " << now;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kinebus::testing

@@ -119,11 +119,22 @@ TEST(JointSampler, RefusesARunThatDoesNotBeginOrEndAtRest) {
   phase.v0 = 10;
   phase.duration_s = 0.1;
   JointSampler sampler(*kinematics);
-  EXPECT_EQ(sampler.push(phase).error().kind, StreamError::Kind::kNotAtRest);
+  auto refused = sampler.push(phase);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, StreamError::Kind::kNotAtRest);
+  EXPECT_NEAR(refused.error().amount, 10, 1e-9);
   phase.v0 = 0;
   phase.a = 10;
   phase.last = true;
-  EXPECT_EQ(sampler.push(phase).error().kind, StreamError::Kind::kNotAtRest);
+  refused = sampler.push(phase);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, StreamError::Kind::kNotAtRest);
+  EXPECT_NEAR(refused.error().amount, 1, 1e-9);
+  phase.last = false;
+  ASSERT_TRUE(sampler.push(phase));
+  refused = sampler.push(phase);
+  ASSERT_FALSE(refused) << "the one before is not taken";
+  EXPECT_EQ(refused.error().kind, StreamError::Kind::kPhaseOrder);
 }
 
 TEST(JointSampler, ARotaryJointHasItsOwnTolerance) {
@@ -295,6 +306,53 @@ TEST(JointSampler, SaysWhyAPoseCannotBeTaken) {
   EXPECT_EQ(refused.error().pose.kind, exact.error().kind);
   EXPECT_EQ(refused.error().pose.joint, exact.error().joint);
   EXPECT_EQ(refused.error().pose.amount, exact.error().amount);
+}
+
+TEST(JointSampler, AnErrorThatRepeatsIsSeenWhereverASpansEndsAndMiddleLie) {
+  const auto kinematics = m1();
+  JointSampler::Options options;
+  JointCalibration calibration;
+  calibration.pitch = 5;
+  calibration.periodic_sine = 0.05;
+  const auto map = std::make_shared<const JointMap>(calibration);
+  for (std::size_t j = 0; j < 4; ++j) options.maps[j] = map;
+  // Straight up at two pitches in each of the longest spans: ends and middle would all lie on whole pitches.
+  for (const double speed : {40.0, 150.0, 12.3}) {
+    JointSampler sampler(*kinematics, options);
+    Phase phase;
+    phase.piece.coefficients[kZ] = {10, 1, 0, 0};
+    phase.piece.length = 200;
+    phase.a = 2000;
+    phase.duration_s = speed / 2000;
+    Phase cruise = phase;
+    cruise.s0 = phase.s(phase.duration_s);
+    cruise.v0 = speed;
+    cruise.a = 0;
+    cruise.duration_s = 50 / speed;
+    ASSERT_TRUE(sampler.push(phase));
+    while (*sampler.next()) {
+    }
+    ASSERT_TRUE(sampler.push(cruise));
+    double worst = 0;
+    for (auto span = sampler.next(); *span; span = sampler.next()) {
+      const JointSpan& s = **span;
+      for (int i = 0; i <= 16; ++i) {
+        JointPoint exact;
+        const double t = s.duration_s * i / 16;
+        ASSERT_TRUE(kinematics->inverse_along(cruise.piece.frame, cruise.at(s.start_s - phase.duration_s + t),
+                                              exact));
+        for (int j = 0; j < 4; ++j)
+          worst =
+              std::max(worst, std::abs(s.position(j, t) - map->at(exact.q[static_cast<std::size_t>(j)]).g));
+      }
+    }
+    EXPECT_LE(worst, 35e-6) << speed;
+    // And in no more spans than that takes.
+    EXPECT_LE(static_cast<double>(sampler.counters().spans), 115) << speed;
+    EXPECT_LE(static_cast<double>(sampler.counters().evaluations),
+              2.2 * static_cast<double>(sampler.counters().spans))
+        << speed;
+  }
 }
 
 }  // namespace
