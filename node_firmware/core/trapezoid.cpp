@@ -189,7 +189,6 @@ void Trapezoid::add(ProfileTicks length, std::int64_t position, std::int64_t vel
 
 ProfileState Trapezoid::brake(ProfileState from, std::int64_t deceleration) {
   const std::int64_t speed = from.velocity < 0 ? -from.velocity : from.velocity;
-  if (speed == 0) return from;
   const ProfileTicks length = ticks_for(speed, deceleration);
   add(length, from.position, from.velocity, 0);
   return {from.position + distance_of(from.velocity, length) / 2, 0};
@@ -203,20 +202,16 @@ void Trapezoid::run(ProfileTicks start, ProfileState from, std::int64_t target, 
   if (!solve(problem, d)) {
     from = brake(from, problem.deceleration);
     problem = problem_from(from, target, limits, true);
-    if (problem.distance != 0 && !solve(problem, d)) return hold_after(from);
+    if (!solve(problem, d)) return hold_after(from);
   }
-  if (problem.distance != 0) {
-    const std::int64_t sign = target >= from.position ? 1 : -1;
-    const std::int64_t v0 = sign * problem.v0;
-    const std::int64_t peak = sign * d.peak;
-    const std::int64_t ramp = (distance_of(v0, d.first) + distance_of(peak, d.first)) / 2;
-    add(d.first, from.position, v0, peak);
-    add(d.cruise, from.position + ramp, peak, peak);
-    add(d.last, target - distance_of(peak, d.last) / 2, peak, 0);
-    end_ = {target, problem.to_rest ? 0 : peak};
-  } else {
-    end_ = {target, 0};
-  }
+  const std::int64_t sign = target >= from.position ? 1 : -1;
+  const std::int64_t v0 = sign * problem.v0;
+  const std::int64_t peak = sign * d.peak;
+  const std::int64_t ramp = (distance_of(v0, d.first) + distance_of(peak, d.first)) / 2;
+  add(d.first, from.position, v0, peak);
+  add(d.cruise, from.position + ramp, peak, peak);
+  add(d.last, target - distance_of(peak, d.last) / 2, peak, 0);
+  end_ = {target, problem.to_rest ? 0 : peak};
 }
 
 void Trapezoid::hold_after(ProfileState at_rest) {

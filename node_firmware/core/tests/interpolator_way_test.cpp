@@ -217,5 +217,42 @@ TEST(LinearInterpolator, WaitsForASyncThatIsLateAndNoLonger) {
   }
 }
 
+TEST(LinearInterpolator, SpeedsUpByOneLimitAndSlowsDownByTheOther) {
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    Chance chance(seed);
+    auto limits = limits_of(chance, 0.05, 20);
+    if (chance.of(3) == 0) limits.high = fixed(chance.within(10, 1e4));
+    const long double up = limits.profile.acceleration, down = limits.profile.deceleration;
+    const long double fastest = limits.profile.velocity;
+    const auto period = static_cast<ProfileTicks>(chance.within(16'000, 320'000));
+    LinearInterpolator line;
+    line.hold(0);
+    std::int64_t target = 0;
+    ProfileTicks now = 0, then = 0;
+    ProfileState last = line.at(0);
+    for (int i = 0; i < 60; ++i, now += period) {
+      if (chance.of(3) != 0)
+        target += chance.sign() * fixed(chance.within(0.01, 3) * static_cast<double>(fastest) *
+                                        static_cast<double>(period) / 16e6);
+      (void)line.go(now, std::min(target, limits.high), period, limits);
+      for (int k = 1; k <= 32; ++k) {
+        const ProfileTicks t = now + period * k / 32;
+        const ProfileState state = line.at(t);
+        const long double v0 = counts_per_s(last.velocity), v1 = counts_per_s(state.velocity);
+        const long double dt = static_cast<long double>(t - then) / kTicks;
+        // Through zero it slows down first, and then speeds up.
+        const long double needs = v0 * v1 < 0                   ? std::abs(v0) / down + std::abs(v1) / up
+                                  : std::abs(v1) > std::abs(v0) ? (std::abs(v1) - std::abs(v0)) / up
+                                                                : (std::abs(v0) - std::abs(v1)) / down;
+        ASSERT_LE(needs, dt * 1.001L + (1e-6L * fastest + 2) / std::min(up, down))
+            << "seed " << seed << " " << i;
+        ASSERT_LE(std::abs(v1), fastest * 1.0001L + 1) << "seed " << seed;
+        last = state;
+        then = t;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kinebus::testing_way

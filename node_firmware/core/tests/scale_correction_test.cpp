@@ -192,5 +192,35 @@ TEST(ScaleCorrection, NumbersBeyondAnyMachineDoNotLeaveTheirBounds) {
     }
 }
 
+TEST(ScaleCorrection, WhatItWasOnItsWayToIsGivenUpWhenItIsNoLongerKnownToBeRight) {
+  for (const bool fast : {true, false}) {
+    Bench b({kSettings.ratio_q16, 1000, 100});
+    b.look(0, 0);
+    b.look(250, 0);
+    EXPECT_NEAR(b.added(kPeriod), 1, 0.001) << "of 2";
+    // Fast, or come over in the meantime.
+    fast ? b.look(750, 256) : b.look(250, 256);
+    EXPECT_NEAR(b.added(), 1, 0.001);
+    EXPECT_NEAR(b.added(1s), 1, 0.001) << fast;
+  }
+}
+
+TEST(ScaleCorrection, AtItsBoundsAllIsStillGood) {
+  constexpr std::int32_t kFour = 4 * 65536;
+  const auto look = [](ScaleCorrection& c, LocalTime now, std::int64_t command, std::int64_t scale) {
+    return c.look({kFour, 1000, 2000}, {now, command, scale});
+  };
+  for (const std::int64_t sign : {1, -1}) {
+    ScaleCorrection stands, far;
+    look(stands, 1s, 0, 0);
+    EXPECT_NE(look(stands, 2s, sign * 1080, 0), Finding::kStands);
+    EXPECT_EQ(look(stands, 3s, sign * 1081, 0), Finding::kStands);
+    look(far, 1s, 0, 0);
+    look(far, 2s, sign * 4000, sign * 1000);
+    EXPECT_EQ(look(far, 3s, sign * 4020, sign * 755), Finding::kGood) << "1,000";
+    EXPECT_EQ(look(far, 3s, sign * 4021, sign * 755), Finding::kFarAway) << "1,001";
+  }
+}
+
 }  // namespace
 }  // namespace kinebus::testing_scale
