@@ -15,8 +15,7 @@ struct JointSpan {
   double duration_s = 0;
   std::array<std::array<double, 4>, kMaxJoints> coefficients{};  ///< [joint][power of (t - start)], mm or rad
   bool last = false;                                             ///< the run ends at rest with this span
-  bool breaks_after = false;  ///< the acceleration jumps at this span's end: a good place for a knot
-  bool eased = false;         ///< the acceleration changes steadily along it: a limit of jerk holds
+  bool eased = false;  ///< the acceleration changes steadily along it: a limit of jerk holds
   std::uint32_t line = 0;
 
   double position(int joint, double t) const {

@@ -181,7 +181,7 @@ void BacklashTakeUp::push(const JointSpan& span) {
   rest.start_s = end;
   rest.duration_s = busy_until - end;
   rest.line = span.line;
-  rest.breaks_after = rest.last = true;
+  rest.last = true;
   for (std::size_t j = 0; j < tracks_.size(); ++j)
     rest.coefficients[j] = {span.position(static_cast<int>(j), span.duration_s), 0, 0, 0};
   cut(rest);
@@ -205,7 +205,6 @@ void BacklashTakeUp::cut(const JointSpan& span) {
     piece.start_s = from;
     piece.duration_s = to - from;
     piece.last = final && span.last;
-    piece.breaks_after = !final || span.breaks_after;
     for (std::size_t j = 0; j < tracks_.size(); ++j) {
       const auto& c = span.coefficients[j];
       auto& p = piece.coefficients[j];

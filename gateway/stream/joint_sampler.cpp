@@ -158,7 +158,6 @@ Result<std::optional<JointSpan>, StreamError> JointSampler::next() {
   done_s_ = t1;
   ++counters_.spans;
   if (t1 >= phase_.duration_s) {
-    span.breaks_after = true;
     span.last = phase_.last;
     ended_ = phase_.last;
     phase_start_s_ += phase_.duration_s;

@@ -118,6 +118,11 @@ bool Segmenter::ready() const {
   return complete_ || !has_room() || piece(count() - 1).end >= static_cast<double>(at_.knot) + 3 * kLongest;
 }
 
+double Segmenter::known() const {
+  if (complete_) return kForever;
+  return pieces_[(pushed_ - 1) & (kCapacity - 1)].end - static_cast<double>(at_.knot);
+}
+
 /// The piece that holds at time t. A knot is rounded to the grid, so one within half a unit before a boundary
 /// belongs to what follows the boundary.
 std::size_t Segmenter::piece_at(double t, std::size_t hint) const {
@@ -174,7 +179,7 @@ double Segmenter::steadied(double h) const {
 }
 
 Segmenter::Fit Segmenter::run_on(const Reach& far) {
-  double h = far.at_jump && !eased_ ? far.units : steadied(far.units);
+  double h = far.at_jump && !eased_ ? far.units : std::min(steadied(far.units), known());
   const bool at_jump = far.at_jump && h >= kNearJump * far.units;
   if (at_jump) h = far.units;
   const Piece& p = piece(far.piece);
@@ -198,9 +203,9 @@ Segmenter::Fit Segmenter::run_on(const Reach& far) {
   if (!f.good()) return shrink(f);
   if (at_jump) return cross_jumps(f, far);
   if (f.score < 0.4 && h < 0.7 * kLongest && !halfway) {
-    const Fit longer =
-        fit(static_cast<std::int32_t>(std::min(h * std::cbrt(0.8 / std::max(f.score, 0.1)), kLongest)),
-            Goal::kRunOn);
+    const double most = std::min(kLongest, known());
+    const Fit longer = fit(
+        static_cast<std::int32_t>(std::min(h * std::cbrt(0.8 / std::max(f.score, 0.1)), most)), Goal::kRunOn);
     if (longer.good()) return longer;
   }
   return f;
@@ -240,8 +245,7 @@ void Segmenter::begin_chain(const Fit& fit) {
 /// Finds the segment behind link i, unless it is known. False: none is good enough.
 bool Segmenter::extend_chain(std::size_t i) {
   const std::size_t next = i + 1;
-  // What more path might change is chosen anew.
-  if (next < links_ && link(next).pushed != kWhateverComes && link(next).pushed != pushed_) links_ = next;
+  if (next < links_ && is_stale(link(next))) links_ = next;
   if (next == links_) {
     Link& following = link(next);
     at_ = link(i).at;

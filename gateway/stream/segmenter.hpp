@@ -146,10 +146,14 @@ class Segmenter {
   }
   std::size_t count() const { return pushed_ - at_.first; }
   Link& link(std::size_t i) { return chain_[(first_link_ + i) % kLinks]; }
+  /// More path has come that might have changed the choice.
+  bool is_stale(const Link& link) const { return link.pushed != kWhateverComes && link.pushed != pushed_; }
   Piece& place(std::size_t i) { return pieces_[(at_.first + i) & (kCapacity - 1)]; }
   void append(const Piece& piece);
   static void widen(Axis& axis, double offset);
   bool ready() const;
+  /// How far the path is known, units from the knot.
+  double known() const;
   std::size_t piece_at(double t, std::size_t hint) const;
   bool stops_at(std::size_t index, double b) const;
   Reach reach() const;

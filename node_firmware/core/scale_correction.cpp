@@ -46,7 +46,6 @@ void ScaleCorrection::aim(LocalTime now, std::int64_t target_q32, std::int64_t c
 void ScaleCorrection::hold(LocalTime now) {
   if (!running()) return;
   last_.reset();
-  counted_.reset();
   aim(now, at(now), 0);
 }
 

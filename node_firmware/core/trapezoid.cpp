@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <optional>
 
 namespace kinebus {
 namespace {
@@ -67,6 +68,15 @@ bool too_slow(const Problem& p, ProfileTicks first, std::uint64_t distance, Prof
   return p.to_rest ? std::max(ticks_for(peak, nominal(p.deceleration)), kShortest) : 0;
 }
 
+/// Half of `velocity` over `ticks`: the way of a ramp. nullopt: more than 64 bits hold, and so than there is
+/// room for.
+[[gnu::noinline]] std::optional<std::uint64_t> ramp_way(std::int64_t velocity, ProfileTicks ticks) {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 63;
+  if (static_cast<std::uint64_t>(ticks) > kMost / (static_cast<std::uint64_t>(velocity >> 24) + 1))
+    return std::nullopt;
+  return static_cast<std::uint64_t>(distance_of(velocity, ticks)) / 2;
+}
+
 bool solve_trapezoid(const Problem& p, Durations& d) {
   const std::int64_t change = p.vmax - p.v0;
   const std::int64_t limit = nominal(change >= 0 ? p.acceleration : p.deceleration);
@@ -74,9 +84,9 @@ bool solve_trapezoid(const Problem& p, Durations& d) {
   d.first = std::max(ticks_for(change >= 0 ? change : -change, limit), kShortest);
   // Tiny limits: the small rest of velocity change that rounding leaves needs longer.
   for (int attempt = 0; attempt < 8; ++attempt, d.first *= 2) {
-    const std::uint64_t ramps = static_cast<std::uint64_t>(distance_of(p.v0, d.first) / 2) +
-                                static_cast<std::uint64_t>(distance_of(p.vmax, d.first + d.last) / 2);
-    if (ramps >= p.distance) return false;
+    const auto of_v0 = ramp_way(p.v0, d.first), of_vmax = ramp_way(p.vmax, d.first + d.last);
+    if (!of_v0 || !of_vmax || *of_v0 + *of_vmax >= p.distance) return false;
+    const std::uint64_t ramps = *of_v0 + *of_vmax;
     // Ticks at vmax for the rest, rounded up: the peak then comes out at or just below vmax.
     d.cruise = velocity_over(p.distance - ramps, p.vmax) + 1;
     if (solve_peak(p, d)) return true;
@@ -179,7 +189,6 @@ void Trapezoid::add(ProfileTicks length, std::int64_t position, std::int64_t vel
 
 ProfileState Trapezoid::brake(ProfileState from, std::int64_t deceleration) {
   const std::int64_t speed = from.velocity < 0 ? -from.velocity : from.velocity;
-  if (speed == 0) return from;
   const ProfileTicks length = ticks_for(speed, deceleration);
   add(length, from.position, from.velocity, 0);
   return {from.position + distance_of(from.velocity, length) / 2, 0};
@@ -193,20 +202,16 @@ void Trapezoid::run(ProfileTicks start, ProfileState from, std::int64_t target, 
   if (!solve(problem, d)) {
     from = brake(from, problem.deceleration);
     problem = problem_from(from, target, limits, true);
-    if (problem.distance != 0 && !solve(problem, d)) return hold_after(from);
+    if (!solve(problem, d)) return hold_after(from);
   }
-  if (problem.distance != 0) {
-    const std::int64_t sign = target >= from.position ? 1 : -1;
-    const std::int64_t v0 = sign * problem.v0;
-    const std::int64_t peak = sign * d.peak;
-    const std::int64_t ramp = (distance_of(v0, d.first) + distance_of(peak, d.first)) / 2;
-    add(d.first, from.position, v0, peak);
-    add(d.cruise, from.position + ramp, peak, peak);
-    add(d.last, target - distance_of(peak, d.last) / 2, peak, 0);
-    end_ = {target, problem.to_rest ? 0 : peak};
-  } else {
-    end_ = {target, 0};
-  }
+  const std::int64_t sign = target >= from.position ? 1 : -1;
+  const std::int64_t v0 = sign * problem.v0;
+  const std::int64_t peak = sign * d.peak;
+  const std::int64_t ramp = (distance_of(v0, d.first) + distance_of(peak, d.first)) / 2;
+  add(d.first, from.position, v0, peak);
+  add(d.cruise, from.position + ramp, peak, peak);
+  add(d.last, target - distance_of(peak, d.last) / 2, peak, 0);
+  end_ = {target, problem.to_rest ? 0 : peak};
 }
 
 void Trapezoid::hold_after(ProfileState at_rest) {

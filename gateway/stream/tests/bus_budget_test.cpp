@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
 #include <vector>
 
 namespace kinebus::testing {
@@ -59,6 +61,88 @@ TEST(BusBudget, AsksForAStopWhenTheRunIsNotMadeInTime) {
   const std::vector<NodeStream> streams(1, waiting(10, 100));
   EXPECT_EQ(rate(streams, 1'000, false), 0);
   EXPECT_LT(rate(streams, -3'000, false), 0.6);
+}
+
+/// Every record that waits has its deadline: what the bus carries until it begins, less the reserve.
+double least_of_deadlines(const std::vector<NodeStream>& streams, std::int64_t now) {
+  const BusBudget::Options o;
+  const double reserve_s = static_cast<double>(o.reserve.count()) * kSecondsPerUnit;
+  const double record_s = o.bits_per_record / (o.bits_per_second * (o.share - o.overhead));
+  std::vector<std::int64_t> begins;
+  double rate = 1;
+  for (const NodeStream& s : streams) {
+    for (std::uint64_t n = 0; n < s.unsent(); ++n) begins.push_back(s.unsent_begins_units(n));
+    for (std::uint64_t n = 0; n + 120 < s.unsent(); n += 16) {
+      const std::int64_t from = s.unsent_begins_units(n);
+      const auto covered = static_cast<double>(s.unsent_begins_units(n + 120) - from) * kSecondsPerUnit;
+      if (from <= now + 62'520) rate = std::min(rate, std::max(covered / reserve_s, o.lowest_rate));
+    }
+  }
+  std::sort(begins.begin(), begins.end());
+  for (std::size_t k = 0; k < begins.size() && begins[k] <= now + 62'520; ++k) {
+    const double x = static_cast<double>(std::max<std::int64_t>(begins[k] - now, 0)) * kSecondsPerUnit;
+    rate = std::min(rate, x / (static_cast<double>(k + 1) * record_s + reserve_s));
+  }
+  return rate;
+}
+
+TEST(BusBudget, IsWhatTheTightestDeadlineAllows) {
+  int slowed = 0;
+  for (std::uint32_t seed = 1; seed <= 300; ++seed) {
+    std::mt19937 random(seed);
+    std::vector<NodeStream> streams;
+    const auto nodes = 1 + random() % 4;
+    for (std::uint32_t n = 0; n < nodes; ++n) {
+      NodeStream stream(1);
+      stream.reset({}, 0, 0);
+      stream.push_start();
+      FittedSegment s;
+      // Sparse and dense stretches in turn.
+      for (int k = 0; k < 900 && s.start_units < 80'000; ++k) {
+        const auto mean = (k / 150 + static_cast<int>(seed + n)) % 3 == 0 ? 15u : 300u;
+        s.duration = static_cast<std::int32_t>(1 + random() % mean);
+        stream.push(s);
+        s.start_units += s.duration;
+      }
+      stream.push_end();
+      stream.release(0);
+      streams.push_back(std::move(stream));
+    }
+    for (const std::int64_t now : {-60'000, -20'000, -9'000, -3'000}) {
+      const double is = rate(streams, now), exact = least_of_deadlines(streams, now);
+      // Deadlines are looked at every 25 ms.
+      EXPECT_GE(is, exact - 1e-9) << "seed " << seed << " at " << now;
+      EXPECT_LE(is, 1.3 * exact) << "seed " << seed << " at " << now;
+      slowed += exact < 0.9 && exact > 0.1;
+    }
+  }
+  EXPECT_GT(slowed, 300);
+}
+
+TEST(BusBudget, WhatIsMadeMustReachOverTheReserve) {
+  NodeStream stream = waiting(10, 1000);
+  ASSERT_TRUE(stream.on_status({}, {.free_records = 120}, units(-20'000)));
+  while (stream.next_frame({}, units(0))) {
+  }
+  ASSERT_EQ(stream.unsent(), 0u);
+  std::vector<NodeStream> streams;
+  streams.push_back(std::move(stream));
+  // Made until 10,000; the reserve is 7,500 units.
+  EXPECT_NEAR(rate(streams, 6'250, false), 0.5, 1e-9);
+  EXPECT_EQ(rate(streams, 6'250, true), 1);
+  EXPECT_EQ(rate(streams, 1'000, false), 1);
+}
+
+TEST(BusBudget, AFewRecordsThatAreDueSoonSlowItAsWell) {
+  for (const std::int32_t duration : {5, 40, 1000}) {
+    for (const std::int64_t now : {-6'000, -1'500, -200}) {
+      const std::vector<NodeStream> streams(2, waiting(20, duration));
+      const double is = rate(streams, now), exact = least_of_deadlines(streams, now);
+      EXPECT_GE(is, exact - 1e-9) << duration << " " << now;
+      // The first of them are looked at together, as far as 25 ms reach.
+      EXPECT_LE(is, 1.1 * exact + (now == -200 ? 0.2 : 0)) << duration << " " << now;
+    }
+  }
 }
 
 }  // namespace

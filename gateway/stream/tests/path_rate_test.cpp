@@ -200,5 +200,118 @@ TEST(PathRate, FramesThatGoOutTooLateAreCounted) {
   EXPECT_EQ(rate.counters().late, 1u);
 }
 
+TEST(PathRate, CommandsAreNumberedInTurn) {
+  PathRate rate;
+  BusTime now = 1s;
+  std::optional<std::uint8_t> last;
+  for (int k = 0; k < 40; ++k, now += 1s) {
+    if (k % 3 == 2)
+      rate.on_stop_request({StopReason::kStarved, 0, now + 2ms}, now);
+    else if (rate.stop_latched())
+      rate.clear(now);
+    else
+      rate.request(k % 2 == 0 ? 1 : 0.5, 2ms, now);
+    const RateCommand command = sent(rate, now);
+    while (rate.next_repeat(now + 100ms)) {
+    }
+    if (last) {
+      EXPECT_EQ(command.counter, (*last + 1) % 16) << k;
+    }
+    last = command.counter;
+    EXPECT_FALSE(rate.next_frame(now));
+  }
+  EXPECT_GT(rate.counters().commands, 20u);
+}
+
+TEST(PathRate, CopiesOfTwoCommandsComeEachInItsTime) {
+  PathRate rate;
+  rate.request(1, 2ms, 1s);
+  const RateCommand first = sent(rate, 1s);
+  rate.request(0.5, 2ms, 1s + 1ms);
+  const RateCommand second = sent(rate, 1s + 1ms);
+  EXPECT_EQ(rate.counters().commands, 2u);
+  int of_first = 0, of_second = 0;
+  for (BusTime now = 1s; now < 1s + 10ms; now += 100us) {
+    EXPECT_GE(rate.next_deadline(), now);
+    while (const auto frame = rate.next_repeat(now)) {
+      const auto command = decode_rate_command(*frame, now);
+      ASSERT_TRUE(command == first || command == second);
+      int& copies = command == first ? of_first : of_second;
+      ++copies;
+      EXPECT_EQ(now, (command == first ? 1s : 1s + 1ms) + copies * 600us);
+    }
+  }
+  EXPECT_EQ(of_first, 7);
+  EXPECT_EQ(of_second, 7);
+  EXPECT_EQ(rate.next_deadline(), BusTime::max());
+}
+
+TEST(PathRate, WhereNoJointMovesThereIsNoHurry) {
+  PathRate rate;
+  rate.request(1, 2ms, 1s);
+  sent(rate, 1s);
+  rate.request(0.5, 2ms, 2s, false);
+  EXPECT_EQ(sent(rate, 2s).start, 2s + 50ms);
+}
+
+TEST(PathRate, AfterAStopNothingIsAskedFor) {
+  for (int way = 0; way < 3; ++way) {
+    PathRate rate;
+    rate.request(1, 2ms, 1s);
+    sent(rate, 1s);
+    if (way == 0) rate.stop(2s);
+    if (way != 0) rate.on_stop_request({StopReason::kStarved, 0, 2s}, 2s);
+    EXPECT_EQ(rate.target(), 0) << way;
+    sent(rate, 2s);
+    if (way != 2) continue;
+    rate.clear(3s);
+    EXPECT_EQ(rate.target(), 0);
+    sent(rate, 3s);
+    rate.on_time(3s + 10ms);
+    rate.request(1, 2ms, 3s + 10ms);
+    EXPECT_EQ(rate.target(), 1) << "the same rate anew";
+    EXPECT_TRUE(rate.next_frame(3s + 10ms));
+  }
+}
+
+TEST(PathRate, OneStopRequestHeardTwiceIsAnsweredOnce) {
+  PathRate rate;
+  rate.request(1, 2ms, 1s);
+  sent(rate, 1s);
+  rate.on_stop_request({StopReason::kStarved, 0, 2s}, 2s);
+  EXPECT_EQ(sent(rate, 2s).start, 2s);
+  rate.on_stop_request({StopReason::kStarved, 0, 2s}, 2s + 1ms);
+  EXPECT_FALSE(rate.next_frame(2s + 1ms));
+}
+
+TEST(PathRate, OnlyAStopThatWaitedIsNamedAnew) {
+  PathRate rate;
+  rate.request(1, 2ms, 1s);
+  EXPECT_EQ(sent(rate, 1s + 200ms).start, 1s + 50ms) << "a rate that is late is void";
+  while (rate.next_repeat(2s)) {
+  }
+  rate.on_frame_sent(1s + 200ms, encode(RateCommand{}));
+  rate.stop(2s);
+  const auto frame = rate.next_frame(2s + 90ms);
+  ASSERT_TRUE(frame);
+  EXPECT_FALSE(rate.next_frame(2s + 90ms)) << "the late one does not go out, too";
+  EXPECT_FALSE(rate.all_sent());
+  rate.on_frame_sent(2s + 91ms, *frame);
+  PathRate fresh;
+  fresh.stop(2s);
+  fresh.on_frame_sent(2s + 91ms, *fresh.next_frame(2s + 90ms));
+  EXPECT_TRUE(fresh.all_sent()) << "nobody waits for the late one";
+}
+
+TEST(PathRate, OnlyItsOwnFramesAreLate) {
+  PathRate rate;
+  rate.request(1, 2ms, 1s);
+  CanFrame frame = *rate.next_frame(1s);
+  frame.id += 1;
+  rate.on_frame_sent(3s, frame);
+  EXPECT_EQ(rate.counters().late, 0u);
+  EXPECT_FALSE(rate.all_sent());
+}
+
 }  // namespace
 }  // namespace kinebus

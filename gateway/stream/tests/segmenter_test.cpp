@@ -181,7 +181,6 @@ std::vector<JointSpan> jumpy_spans(std::uint32_t seed, double accel, int count) 
     span.start_s = t;
     span.duration_s = 0.0001 * std::pow(500.0, 0.5 + 0.5 * any(random));
     span.line = static_cast<std::uint32_t>(k + 1);
-    span.breaks_after = true;
     const double h = span.duration_s;
     for (std::size_t j = 0; j < 2; ++j) {
       double a = accel * any(random), jerk = k % 3 == 0 ? (accel * any(random) - a) / h : 0;

@@ -57,5 +57,69 @@ TEST(StampedSyncProducer, IgnoresTheSendingOfAnOlderSync) {
   EXPECT_FALSE(sync.next_frame(milliseconds{52}));
 }
 
+TEST(StampedSyncProducer, OneThatGoesOutALittleLateIsFollowedInTime) {
+  StampedSyncProducer sync;
+  sync.start(milliseconds{10});
+  ASSERT_TRUE(sync.next_frame(milliseconds{13}));
+  EXPECT_EQ(sync.next_deadline(), milliseconds{60});
+  EXPECT_EQ(sync.counters().late, 0u);
+}
+
+TEST(StampedSyncProducer, StampsOnceAndOnlyForItsOwnSync) {
+  StampedSyncProducer sync;
+  sync.start(BusTime{0});
+  const auto frame = *sync.next_frame(BusTime{0});
+  CanFrame extended = frame, other_id = frame, longer = CanFrame::make(kSyncCobId, {frame.data[0], 0});
+  extended.extended = true;
+  other_id.id = 0x081;
+  for (const CanFrame& other : {extended, other_id, longer, CanFrame::make(kSyncCobId, {2})})
+    sync.on_frame_sent(milliseconds{1}, other);
+  EXPECT_FALSE(sync.next_frame(milliseconds{2}));
+  sync.on_frame_sent(milliseconds{3}, frame);
+  EXPECT_TRUE(sync.next_frame(milliseconds{4}));
+  sync.on_frame_sent(milliseconds{5}, frame);
+  EXPECT_FALSE(sync.next_frame(milliseconds{6})) << "told twice";
+  EXPECT_EQ(sync.counters().syncs, 1u);
+  EXPECT_EQ(sync.counters().stamps, 1u);
+  EXPECT_EQ(sync.counters().unstamped, 0u);
+}
+
+TEST(StampedSyncProducer, ANewEpochStampsNothingOfTheOldOne) {
+  for (const bool was_out : {false, true}) {
+    StampedSyncProducer sync({.epoch = 3});
+    sync.start(BusTime{0});
+    const auto old = *sync.next_frame(BusTime{0});
+    if (was_out) sync.on_frame_sent(milliseconds{1}, old);
+    sync.restart(4, milliseconds{20});
+    if (!was_out) sync.on_frame_sent(milliseconds{2}, old);
+    EXPECT_FALSE(sync.next_frame(milliseconds{3}));
+    EXPECT_EQ(sync.next_deadline(), milliseconds{20});
+    const auto frame = sync.next_frame(milliseconds{20});
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(*frame, CanFrame::make(kSyncCobId, {2}));
+    EXPECT_EQ(sync.counters().unstamped, 0u);
+    sync.on_frame_sent(milliseconds{21}, *frame);
+    const auto stamp = sync.next_frame(milliseconds{22});
+    ASSERT_TRUE(stamp);
+    EXPECT_EQ(decode_sync_stamp(*stamp, milliseconds{22})->epoch, 4);
+  }
+}
+
+TEST(StampedSyncProducer, AShorterPeriodBeginsAtOnceAndALongerOneWithTheNextSync) {
+  StampedSyncProducer sync;
+  sync.set_period(milliseconds{20}, milliseconds{5});
+  EXPECT_EQ(sync.next_deadline(), BusTime::max()) << "not begun";
+  EXPECT_EQ(sync.period(), milliseconds{20});
+  sync.start(milliseconds{100});
+  sync.set_period(milliseconds{10}, milliseconds{50});
+  EXPECT_EQ(sync.next_deadline(), milliseconds{60});
+  ASSERT_TRUE(sync.next_frame(milliseconds{60}));
+  EXPECT_EQ(sync.next_deadline(), milliseconds{70});
+  sync.set_period(milliseconds{40}, milliseconds{65});
+  EXPECT_EQ(sync.next_deadline(), milliseconds{70});
+  sync.next_frame(milliseconds{70});
+  EXPECT_EQ(sync.next_deadline(), milliseconds{110});
+}
+
 }  // namespace
 }  // namespace kinebus::testing
