@@ -208,14 +208,11 @@ std::optional<SdoResult> BringUp::result(NodeLink& link, AlarmCode code) {
   return std::nullopt;
 }
 
-bool BringUp::asks_for_functions(const NodeLink& link) const {
-  return machine_.path.tool_jerk_mm_per_s3 > 0 && link.functions().has_axes();
-}
-
-void BringUp::note_functions(const NodeLink& link, const SdoResult& answer) {
-  const bool told = answer.abort == AbortCode::kNone;
-  if (told && (static_cast<std::uint64_t>(answer.value) & kFollowsSmoothRamps) != 0) return;
-  if (!without_smooth_) without_smooth_ = link.id();
+void BringUp::note_functions(const NodeLink& link, Node& node, const SdoResult& answer) {
+  const auto told = answer.abort == AbortCode::kNone ? static_cast<std::uint64_t>(answer.value) : 0;
+  if ((told & kTellsTailCheck) != 0) node.configuration.settings.push_back({object::kTailCheck, 1, 1});
+  const bool follows = machine_.path.tool_jerk_mm_per_s3 == 0 || (told & kFollowsSmoothRamps) != 0;
+  if (!follows && !without_smooth_) without_smooth_ = link.id();
 }
 
 /// A node that NMT has stopped answers no SDO.
@@ -235,12 +232,12 @@ void BringUp::identify(BusTime now, NodeLink& link, Node& node) {
   if (!node.requested) {
     node.requested = true;
     for (std::uint8_t sub = 1; sub <= 4; ++sub) link.sdo().read({object::kVendorIdentity.index, sub});
-    if (asks_for_functions(link)) link.sdo().read(object::kStreamFunctions);
+    if (link.functions().has_axes()) link.sdo().read(object::kStreamFunctions);
     return;
   }
   while (const auto answer = result(link, AlarmCode::kWrongIdentity)) {
     if (answer->address == object::kStreamFunctions) {
-      note_functions(link, *answer);
+      note_functions(link, node, *answer);
       node.done = true;
       continue;
     }
@@ -263,7 +260,7 @@ void BringUp::identify(BusTime now, NodeLink& link, Node& node) {
     // Heaters stay off until the node was named by its number: this is the one that is meant.
     if (node.identity[1] == HeatBoard::kFacts.product_code)
       node.configuration.settings.push_back({heat_object::kConfirmedSerial, 4, node.identity[3]});
-    node.done = !asks_for_functions(link);
+    node.done = !link.functions().has_axes();
   }
 }
 

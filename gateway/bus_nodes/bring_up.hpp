@@ -99,8 +99,7 @@ class BringUp {
   void fail(AlarmCode code, std::uint8_t node, Sentence words);
   void step(BusTime now, std::size_t i);
   void identify(BusTime now, NodeLink& link, Node& node);
-  bool asks_for_functions(const NodeLink& link) const;
-  void note_functions(const NodeLink& link, const SdoResult& answer);
+  void note_functions(const NodeLink& link, Node& node, const SdoResult& answer);
   void wake(BusTime now, NodeLink& link, Node& node);
   void configure(BusTime now, NodeLink& link, Node& node);
   void settle(BusTime now, NodeLink& link, Node& node);

@@ -23,11 +23,11 @@ Clearing::Outcome Clearing::on_time(BusTime now) {
   bool lifted = !rate_.stop_latched() && now - since_ >= Rest::kSettle;
   bool enabled = true;
   together_ = true;
-  const auto units = static_cast<std::uint32_t>(rate_.tau(now).count() / kPathTicksPerUnit);
+  const std::int64_t units = rate_.tau(now).count() / kPathTicksPerUnit;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     NodeLink& link = links_[i];
     if (link.stream() && (link.stream()->flags & StreamStatus::kStopped) != 0) lifted = false;
-    together_ = together_ && link.stream() && link.stream()->path_units == units;
+    together_ = together_ && link.stream() && link.stream()->path_near(units) == units;
     for (std::size_t axis = 0; axis < kAxesPerNode; ++axis) {
       if (axes_[i].axes[axis].joint < 0) continue;
       const cia402::State drive = link.drive_state(axis);

@@ -259,6 +259,7 @@ std::vector<NodeAxes> node_axes(const MachineDescription& machine) {
 StreamGroup::Options stream_options(const MachineDescription& machine) {
   StreamGroup::Options options;
   options.budget.share = machine.bus.budget;
+  options.budget.stop_way = std::chrono::duration_cast<SegmentUnits>(machine.stop.ramp) / 2;
   return options;
 }
 

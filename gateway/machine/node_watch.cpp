@@ -125,12 +125,13 @@ bool NodeWatch::check_clock(BusTime now, const NodeLink& link, const StreamStatu
     return false;
   }
   const bool rested = rate_.at_rest(now) && rate_.rate(now - kFrameDelay) == 0;
-  const auto units = static_cast<std::uint32_t>(rate_.tau(now).count() / kPathTicksPerUnit);
-  if (!rested || status.path_units == units) return true;
-  events_.alarm(now, AlarmCode::kPathTimeDiffers,
-                say("%1 rests at another path time than the gateway: %2 us apart", name_of(link),
-                    std::int64_t{static_cast<std::int32_t>(status.path_units - units)} * 16),
-                link.id());
+  const std::int64_t units = rate_.tau(now).count() / kPathTicksPerUnit;
+  const std::int64_t told = status.path_near(units);
+  if (!rested || told == units) return true;
+  events_.alarm(
+      now, AlarmCode::kPathTimeDiffers,
+      say("%1 rests at another path time than the gateway: %2 us apart", name_of(link), (told - units) * 16),
+      link.id());
   needs_bring_up_ = true;
   verdict.stop = verdict.fault = true;
   return false;
@@ -162,7 +163,7 @@ NodeWatch::Verdict NodeWatch::take_stream(BusTime now, NodeLink& link, const Str
   using Kind = StreamError::Kind;
   const Kind kind = taken.error().kind;
   counters_.sequence_errors += kind == Kind::kSequence || kind == Kind::kSilent ? 1 : 0;
-  counters_.checkpoint_errors += kind == Kind::kCheckpoint ? 1 : 0;
+  counters_.checkpoint_errors += kind == Kind::kCheckpoint || kind == Kind::kTakenOtherwise ? 1 : 0;
   counters_.underruns += kind == Kind::kUnderrun ? 1 : 0;
   events_.alarm(now, AlarmCode::kStreamLost, to_string(taken.error()), link.id(), taken.error().line);
   verdict.stream_lost = verdict.stop = true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace kinebus {
 
@@ -58,19 +59,30 @@ double BusBudget::allowed_rate(std::span<const NodeStream* const> nodes, PathTim
     if (settled || until == made) break;
   }
 
-  // A full queue must cover the reserve, too.
+  // A full queue, where it covers least.
   const auto queue = static_cast<std::uint64_t>(options_.node_records);
+  std::int64_t least = INT64_MAX;
   for (const NodeStream* node : nodes) {
     const std::uint64_t waiting = node->unsent();
     for (std::uint64_t n = 0; n + queue < waiting; n += kWindowStride) {
       const std::int64_t begins = node->unsent_begins_units(n);
       if (begins > now + kSteps * kStepUnits) break;
-      const auto covered =
-          static_cast<double>(node->unsent_begins_units(n + queue) - begins) * kSecondsPerUnit;
-      rate = std::min(rate, std::max(covered / reserve_s, options_.lowest_rate));
+      least = std::min(least, node->unsent_begins_units(n + queue) - begins);
     }
   }
-  return rate;
+  if (least == INT64_MAX) return rate;
+  return std::min(
+      rate, std::max(rate_of_full_queue(static_cast<double>(least) * kSecondsPerUnit), options_.lowest_rate));
+}
+
+/// A record comes into it when a status has told that 32 are executed, and is looked at when the next one
+/// tells of 32 more, each up to 20 ms late. What is left before it must do for a stop: covered * (120 - 64) /
+/// 120 >= rate * kLooks_s + rate^2 * stop_way.
+double BusBudget::rate_of_full_queue(double covered_s) const {
+  constexpr double kLooks_s = 0.055, kToldOf = 64;
+  const double way_s = static_cast<double>(options_.stop_way.count()) * kSecondsPerUnit;
+  const double left_s = covered_s * std::max(0.0, 1 - kToldOf / options_.node_records);
+  return 2 * left_s / (kLooks_s + std::sqrt(kLooks_s * kLooks_s + 4 * way_s * left_s));
 }
 
 }  // namespace kinebus

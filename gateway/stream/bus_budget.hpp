@@ -27,6 +27,11 @@ class BusBudget {
     SegmentUnits reserve{7'500};  ///< 120 ms
     int node_records = 120;       ///< queue of a node
     double lowest_rate = 0.05;
+    SegmentUnits stop_way{3'125};  ///< half of the stop ramp: 50 ms
+    /// Path time that all nodes have confirmed before it begins to run: a record behind it that a node takes
+    /// otherwise than it was sent is seen by the next status, 120 ms later, of which the start's lead is 50,
+    /// and the stop that follows ends before that record.
+    SegmentUnits confirmed() const { return stop_way + SegmentUnits{6'250}; }
   };
 
   BusBudget() : BusBudget(Options{}) {}
@@ -38,6 +43,9 @@ class BusBudget {
   const Options& options() const { return options_; }
 
  private:
+  /// At which a record that a node takes otherwise is seen, and a stop made, before it begins.
+  double rate_of_full_queue(double covered_s) const;
+
   Options options_;
 };
 

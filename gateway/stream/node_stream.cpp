@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "protocol/motion/tail_check.hpp"
+
 namespace kinebus {
 
 namespace {
@@ -127,11 +129,9 @@ Result<void, StreamError> NodeStream::on_status(BusTime now, const StreamStatus&
   accepted_ = accepted;
   credit_ = accepted_ +
             std::min<std::uint64_t>(status.free_records, static_cast<std::uint64_t>(options_.queue_records));
-  // What node and gateway have both passed: the node's path time is 32 bits wide, nearest to the gateway's.
-  const std::int64_t here = floor_units(tau);
-  const std::int64_t node =
-      here + static_cast<std::int32_t>(status.path_units - static_cast<std::uint32_t>(here));
-  forget_before(std::min(here, node));
+  const std::int64_t here = floor_units(tau), node = status.path_near(here);
+  const bool as_sent = agrees(status, node);
+  forget_before(std::min(here, node));  // what both have passed
 
   if ((status.flags & StreamStatus::kSequenceError) != 0) {
     error.kind = StreamError::Kind::kSequence;
@@ -140,11 +140,20 @@ Result<void, StreamError> NodeStream::on_status(BusTime now, const StreamStatus&
     error.kind = StreamError::Kind::kCheckpoint;
   } else if ((status.flags & StreamStatus::kUnderrun) != 0) {
     error.kind = StreamError::Kind::kUnderrun;
+  } else if (!as_sent) {
+    error.kind = StreamError::Kind::kTakenOtherwise;
   } else {
     return silence(now, tau);
   }
   error.line = line_at(tau);
   return Error<StreamError>(error);
+}
+
+bool NodeStream::agrees(const StreamStatus& status, std::int64_t path_units) const {
+  // Behind the last record that is kept all is executed, or nothing was sent yet.
+  if (!status.tail_check || begin_ == accepted_) return true;
+  return tail_check(status.next_sequence, accepted_state(), knot_units(accepted_), path_units) ==
+         *status.tail_check;
 }
 
 /// The node has taken nothing of what was sent for too long.

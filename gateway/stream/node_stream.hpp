@@ -94,6 +94,8 @@ class NodeStream {
 
  private:
   Result<void, StreamError> silence(BusTime now, PathTime tau) const;
+  /// What the node has made of the records that it accepted is what was sent, as far as 8 bits tell.
+  bool agrees(const StreamStatus& status, std::int64_t path_units) const;
   struct Record {
     std::int64_t start_units = 0;  ///< absolute path time of its first knot
     std::int32_t duration = 0;     ///< 0: control record
@@ -107,6 +109,10 @@ class NodeStream {
   const Record& at(std::uint64_t n) const { return records_[n & (kCapacity - 1)]; }
   const Record* covering(std::int64_t units) const;
   std::int64_t begins_units(std::uint64_t n) const { return n < end_ ? at(n).start_units : tail_units_; }
+  /// Path time at the knot before record n, as the node counts it: a START is where the run before ended.
+  std::int64_t knot_units(std::uint64_t n) const {
+    return n < end_ && at(n).control == SegmentControl::kStart ? at(n - 1).start_units : begins_units(n);
+  }
   void append(Record record);
   void forget_before(std::int64_t units);
 

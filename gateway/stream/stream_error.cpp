@@ -18,6 +18,8 @@ const char* rule(StreamError::Kind kind) {
       return phrase("the node lost a record (waits for record)");
     case Kind::kCheckpoint:
       return phrase("the node's state differs from the gateway's");
+    case Kind::kTakenOtherwise:
+      return phrase("the node has taken a record otherwise than it was sent");
     case Kind::kUnderrun:
       return phrase("the node ran out of records");
     case Kind::kUnknownRecord:

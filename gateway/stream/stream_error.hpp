@@ -11,15 +11,16 @@ namespace kinebus {
 
 struct StreamError {
   enum class Kind : std::uint8_t {
-    kPose,           ///< a phase leaves the machine's reach; see `pose`
-    kPhaseOrder,     ///< a phase was pushed before the last one was taken, or after finish()
-    kStartMismatch,  ///< the run does not start where the axis stands; amount: counts between them
-    kNotAtRest,      ///< the run's first or last phase has a speed; amount: counts/s
-    kSequence,       ///< a node lost a record; amount: the record it waits for
-    kCheckpoint,     ///< a node's state differs from the gateway's
-    kUnderrun,       ///< a node ran out of records
-    kUnknownRecord,  ///< a status names a record that was never sent
-    kSilent,         ///< records sent long ago are still not accepted; amount: ms
+    kPose,            ///< a phase leaves the machine's reach; see `pose`
+    kPhaseOrder,      ///< a phase was pushed before the last one was taken, or after finish()
+    kStartMismatch,   ///< the run does not start where the axis stands; amount: counts between them
+    kNotAtRest,       ///< the run's first or last phase has a speed; amount: counts/s
+    kSequence,        ///< a node lost a record; amount: the record it waits for
+    kCheckpoint,      ///< a node's state differs from the gateway's
+    kTakenOtherwise,  ///< a node has another record in its queue than was sent
+    kUnderrun,        ///< a node ran out of records
+    kUnknownRecord,   ///< a status names a record that was never sent
+    kSilent,          ///< records sent long ago are still not accepted; amount: ms
   };
   Kind kind{};
   std::uint8_t node_id = 0;  ///< 0: none in particular

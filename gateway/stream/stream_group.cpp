@@ -167,7 +167,7 @@ bool StreamGroup::complete() const {
 
 bool StreamGroup::primed(PathTime tau) const {
   const std::int64_t from = std::max(tau.count() / kPathTicksPerUnit, start_units_);
-  const std::int64_t enough = from + options_.budget.reserve.count();
+  const std::int64_t enough = from + options_.budget.confirmed().count();
   return released_ && std::all_of(nodes_.begin(), nodes_.end(), [&](const Node& node) {
            const auto status = node.stream.last_status();
            return (node.end_pushed && node.stream.all_accepted()) ||
@@ -191,8 +191,7 @@ PathTime StreamGroup::confirmed(PathTime tau) const {
     const auto status = node.stream.last_status();
     if (!status) continue;
     const std::int64_t here = tau.count() / kPathTicksPerUnit;
-    const auto behind = static_cast<std::int32_t>(status->path_units - static_cast<std::uint32_t>(here));
-    least = std::min(least, PathTime{(here + behind) * kPathTicksPerUnit});
+    least = std::min(least, PathTime{status->path_near(here) * kPathTicksPerUnit});
   }
   return least;
 }

@@ -80,7 +80,7 @@ class StreamGroup {
   bool may_begin() const;
   /// All records up to END are made (the last phase came and every span of it is fitted).
   bool complete() const;
-  /// The nodes hold enough for path time to run: reserve and horizon, or the whole run.
+  /// The nodes have confirmed enough for path time to run, or the whole run.
   bool primed(PathTime tau) const;
   /// Every node accepted its END, and tau is past it.
   bool run_done(PathTime tau) const;

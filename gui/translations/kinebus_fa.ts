@@ -2777,6 +2777,10 @@
         <translation>وضعیت گره با درگاه یکی نیست</translation>
     </message>
     <message>
+        <source>the node has taken a record otherwise than it was sent</source>
+        <translation>گره رکوردی را جز آن‌گونه که فرستاده شد دریافت کرده است</translation>
+    </message>
+    <message>
         <source>the node ran out of records</source>
         <translation>رکوردهای گره تمام شد</translation>
     </message>

@@ -2777,6 +2777,10 @@
         <translation>düğümün durumu ağ geçidininkinden farklı</translation>
     </message>
     <message>
+        <source>the node has taken a record otherwise than it was sent</source>
+        <translation>düğüm bir kaydı gönderildiğinden başka türlü aldı</translation>
+    </message>
+    <message>
         <source>the node ran out of records</source>
         <translation>düğümün kayıtları bitti</translation>
     </message>

@@ -19,7 +19,7 @@ bool Node::read_node_object(ObjectAddress address, std::int64_t& value) {
       value = emcy_.error_register();
       return true;
     case 0x1002:
-      value = path_.status(now_).flags;
+      value = path_.status_flags();
       return true;
     case 0x1003:
       value = address.subindex == 0 ? emcy_.history_length() : 0;
@@ -49,7 +49,8 @@ bool Node::read_node_object(ObjectAddress address, std::int64_t& value) {
       value = 0;
       return true;
     case 0x2102:
-      value = static_cast<std::int64_t>(encode(path_.status(now_)));
+      value = static_cast<std::int64_t>(
+          encode(path_.status(now_, objects_.value(slot_of(object::kTailCheck)) != 0)));
       return true;
     case 0x2112:
       value = path_.tau(now_).count();

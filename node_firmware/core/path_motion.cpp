@@ -282,14 +282,16 @@ std::uint8_t PathMotion::status_flags() const {
   return static_cast<std::uint8_t>(flags);
 }
 
-StreamStatus PathMotion::status(LocalTime now) const {
+StreamStatus PathMotion::status(LocalTime now, bool checked) const {
   StreamStatus status;
   status.next_sequence = stream_.next_sequence();
   status.free_records = static_cast<std::uint8_t>(stream_.free_records());
   status.flags = status_flags();
   const std::int64_t error_us = clock_.error_bound(now).count() / 1000;
   status.sync_error_us = static_cast<std::uint8_t>(std::clamp<std::int64_t>(error_us, 0, 255));
-  status.path_units = static_cast<std::uint32_t>(tau(now).count() / kPathTicksPerUnit);
+  const std::int64_t units = tau(now).count() / kPathTicksPerUnit;
+  status.path_units = static_cast<std::uint32_t>(units);
+  if (checked) status.tail_check = stream_.tail_check(units);
   return status;
 }
 

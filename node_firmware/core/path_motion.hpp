@@ -79,7 +79,8 @@ class PathMotion {
   bool stop_latched() const { return path_.stop_latched(); }
   /// Local time at which the latched stop starts or started.
   std::optional<LocalTime> stop_start() const;
-  StreamStatus status(LocalTime now) const;
+  /// `checked`: with a check of the stream's tail.
+  StreamStatus status(LocalTime now, bool checked) const;
   /// Its flags alone: cheap enough to look at after every input.
   std::uint8_t status_flags() const;
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "protocol/motion/segment.hpp"
+#include "protocol/motion/tail_check.hpp"
 #include "protocol/time.hpp"
 
 namespace kinebus {
@@ -86,6 +87,10 @@ class SegmentStream {
   PathTime tail_start() const { return PathTime{tail_.start_units * kPathTicksPerUnit}; }
   const AxisState& tail_state(int axis) const { return tail_.axes[static_cast<std::size_t>(axis)]; }
   std::uint8_t next_sequence() const { return next_sequence_; }
+  /// What the queue comes to, in 8 bits, for who has sent it.
+  std::uint8_t tail_check(std::int64_t path_units) const {
+    return kinebus::tail_check(next_sequence_, tail_.axes, tail_.knot_units, path_units);
+  }
   int free_records() const { return kCapacity - run_.size; }
   int size() const { return run_.size; }
   std::uint32_t consumed() const { return run_.consumed; }  ///< records executed since power-up

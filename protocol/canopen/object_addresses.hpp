@@ -45,8 +45,8 @@ inline constexpr ObjectAddress kDeviceType{0x1000, 0}, kErrorRegister{0x1001, 0}
 inline constexpr ObjectAddress kSegmentRecord{0x2100, 0}, kCheckpoint{0x2101, 0}, kStreamStatus{0x2102, 0},
     kRateCommand{0x2110, 0}, kSyncStamp{0x2111, 0}, kPathTime{0x2112, 0}, kStopRamp{0x2113, 0},
     kSyncLossTimeout{0x2114, 0}, kStarvationMargin{0x2115, 0}, kFingerprint{0x2116, 0},
-    kSessionKey{0x2117, 1}, kSessionInForce{0x2117, 5}, kStreamFunctions{0x2118, 0}, kCounters{0x2120, 0},
-    kSwitchFunction{0x2130, 1}, kSwitchPolarity{0x2131, 1}, kSwitchDebounce{0x2132, 1},
+    kSessionKey{0x2117, 1}, kSessionInForce{0x2117, 5}, kStreamFunctions{0x2118, 0}, kTailCheck{0x2119, 0},
+    kCounters{0x2120, 0}, kSwitchFunction{0x2130, 1}, kSwitchPolarity{0x2131, 1}, kSwitchDebounce{0x2132, 1},
     kSwitchLevels{0x2133, 0};
 inline constexpr ObjectAddress kAccelerationShift{0x2140, 1}, kRunCurrent{0x2140, 2}, kHoldCurrent{0x2140, 3},
     kDirectionInvert{0x2140, 4}, kCountsPerUnit{0x2140, 5}, kPositionKnown{0x2140, 6},

@@ -62,8 +62,10 @@ constexpr void stream(Rows& t) {
   t.var(0x2115, "Starvation margin", kU16, kReadWrite, kParameter, 50).between(0, 1000).in("ms");
   t.var(0x2116, "Configuration fingerprint", kU32, kReadOnly, kLive);
   session_key(t);
-  // Bit 0: follows rate commands of smooth ramps.
-  t.var(0x2118, "Stream functions", kU32, kConst, kConstant, kFollowsSmoothRamps);
+  // Bit 0: follows rate commands of smooth ramps; bit 1: knows 2119h.
+  t.var(0x2118, "Stream functions", kU32, kConst, kConstant, kFollowsSmoothRamps | kTellsTailCheck);
+  // 1: the stream status tells a check of the queue's tail in place of path time's highest byte.
+  t.var(0x2119, "Tail check", kU8, kReadWrite, kVariable).between(0, 1);
 }
 
 /// What can go wrong, counted.

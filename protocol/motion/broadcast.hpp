@@ -194,13 +194,16 @@ constexpr std::optional<StopRequest> decode_stop_request(const CanFrame& frame, 
                      static_cast<std::uint8_t>(frame.data[3] >> 7), unwrap_us24(us, reference)};
 }
 
-/// TPDO2 of a node: everything that a stream needs to go on.
+/// TPDO2 of a node: everything that a stream needs to go on. A node that was asked to (2119h) tells, in place
+/// of path time's highest byte, a check of the tail of its queue (tail_check.hpp); bit 7 of the
+/// first byte says so.
 struct StreamStatus {
-  std::uint8_t next_sequence = 0;  ///< 0..127: the record expected next
-  std::uint8_t free_records = 0;   ///< room in the queue now
-  std::uint8_t flags = 0;          ///< kStream... below
-  std::uint8_t sync_error_us = 0;  ///< bound of the clock estimate's error, saturates at 255
-  std::uint32_t path_units = 0;    ///< path time in 16 us units, low 32 bits
+  std::uint8_t next_sequence = 0;            ///< 0..127: the record expected next
+  std::uint8_t free_records = 0;             ///< room in the queue now
+  std::uint8_t flags = 0;                    ///< kStream... below
+  std::uint8_t sync_error_us = 0;            ///< bound of the clock estimate's error, saturates at 255
+  std::uint32_t path_units = 0;              ///< path time in 16 us units, low 32 bits; 24 beside a check
+  std::optional<std::uint8_t> tail_check{};  ///< of the state behind the record before next_sequence
 
   static constexpr std::uint8_t kRunning = 0x01;  ///< executing records
   static constexpr std::uint8_t kAtRest = 0x02;   ///< queue ended by an end record, or never started
@@ -211,17 +214,34 @@ struct StreamStatus {
   static constexpr std::uint8_t kSynchronised = 0x40;
   static constexpr std::uint8_t kReordered =
       0x80;  ///< records came in another order than they were sent, since power-up
+
+  /// The path time, in units, nearest to `units` that was meant: within 134 s of it beside a check, else
+  /// within 9 hours.
+  constexpr std::int64_t path_near(std::int64_t units) const {
+    const int unused = tail_check ? 8 : 0;
+    const auto ahead = static_cast<std::int32_t>((path_units - static_cast<std::uint32_t>(units)) << unused);
+    return units + (ahead >> unused);
+  }
 };
+/// 2118h: the node can tell a check of the tail of its queue.
+inline constexpr std::uint32_t kTellsTailCheck = 2;
 
 constexpr std::uint64_t encode(const StreamStatus& s) {
-  return static_cast<std::uint64_t>(s.next_sequence) | (static_cast<std::uint64_t>(s.free_records) << 8) |
-         (static_cast<std::uint64_t>(s.flags) << 16) | (static_cast<std::uint64_t>(s.sync_error_us) << 24) |
-         (static_cast<std::uint64_t>(s.path_units) << 32);
+  const std::uint32_t units =
+      s.tail_check ? (s.path_units & 0xFF'FFFFu) | std::uint32_t{*s.tail_check} << 24 : s.path_units;
+  return static_cast<std::uint64_t>(s.next_sequence | (s.tail_check ? 0x80u : 0u)) |
+         (static_cast<std::uint64_t>(s.free_records) << 8) | (static_cast<std::uint64_t>(s.flags) << 16) |
+         (static_cast<std::uint64_t>(s.sync_error_us) << 24) | (static_cast<std::uint64_t>(units) << 32);
 }
 constexpr StreamStatus decode_stream_status(std::uint64_t raw) {
-  return {static_cast<std::uint8_t>(raw & 0x7F), static_cast<std::uint8_t>((raw >> 8) & 0xFF),
-          static_cast<std::uint8_t>((raw >> 16) & 0xFF), static_cast<std::uint8_t>((raw >> 24) & 0xFF),
-          static_cast<std::uint32_t>(raw >> 32)};
+  StreamStatus s{static_cast<std::uint8_t>(raw & 0x7F), static_cast<std::uint8_t>((raw >> 8) & 0xFF),
+                 static_cast<std::uint8_t>((raw >> 16) & 0xFF), static_cast<std::uint8_t>((raw >> 24) & 0xFF),
+                 static_cast<std::uint32_t>(raw >> 32)};
+  if ((raw & 0x80) != 0) {
+    s.tail_check = static_cast<std::uint8_t>(s.path_units >> 24);
+    s.path_units &= 0xFF'FFFFu;
+  }
+  return s;
 }
 
 }  // namespace kinebus

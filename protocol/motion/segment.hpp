@@ -9,8 +9,9 @@
 //   duration 1..8191 units of 16 us (up to 131 ms); duration 0: a control record (see SegmentControl).
 //   acceleration: signed, unit 2^(shift+1) * 2^-32 counts/unit^2; with the default shift of 2 that is
 //   7.28 counts/s^2, range +-15.3e6 counts/s^2 (11.9 m/s^2 at 0.78125 um a count).
-// A wrong bit in a segment shows at the next checkpoint. A wrong start shows in no position: control records
-// carry 3 check bits above everything else.
+// A wrong bit in a segment shows in the check of the queue's tail that the node tells (tail_check), and at
+// the next checkpoint. A wrong start shows in no position: control records carry 3 check bits above
+// everything else.
 
 #include <array>
 #include <cstdint>

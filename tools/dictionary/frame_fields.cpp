@@ -60,7 +60,11 @@ std::vector<FrameField> segment_fields() {
 }
 
 std::vector<FrameField> stream_status_fields() {
-  std::vector<FrameField> fields{{"NextSequence", 0, 7}, {"FreeRecords", 8, 8}};
+  const FieldCondition plain{"Checked", 0, 0}, checked{"Checked", 1, 1};
+  std::vector<FrameField> fields{
+      {"NextSequence", 0, 7},
+      {.name = "Checked", .start = 7, .bits = 1, .comment = "with a check of the tail: 2119h"},
+      {"FreeRecords", 8, 8}};
   const std::pair<const char*, std::uint8_t> flags[] = {
       {"Running", StreamStatus::kRunning},           {"AtRest", StreamStatus::kAtRest},
       {"Stopped", StreamStatus::kStopped},           {"SequenceError", StreamStatus::kSequenceError},
@@ -73,7 +77,19 @@ std::vector<FrameField> stream_status_fields() {
   }
   fields.push_back(
       {.name = "SyncError", .start = 24, .bits = 8, .unit = "us", .comment = "bound; 255: that or more"});
-  fields.push_back({.name = "PathTime", .start = 32, .bits = 32, .factor = 16, .unit = "us"});
+  fields.push_back({.name = "PathTime", .start = 32, .bits = 32, .factor = 16, .unit = "us", .when = plain});
+  fields.push_back({.name = "PathTimeLow",
+                    .start = 32,
+                    .bits = 24,
+                    .factor = 16,
+                    .unit = "us",
+                    .comment = "its low 24 bits",
+                    .when = checked});
+  fields.push_back({.name = "TailCheck",
+                    .start = 56,
+                    .bits = 8,
+                    .comment = "protocol/motion/tail_check.hpp",
+                    .when = checked});
   return fields;
 }
 

@@ -10,6 +10,7 @@
 #include "protocol/can/frame.hpp"
 #include "protocol/motion/broadcast.hpp"
 #include "protocol/motion/segment.hpp"
+#include "protocol/motion/tail_check.hpp"
 #include "protocol/time.hpp"
 
 namespace kinebus::testing {
@@ -65,6 +66,7 @@ class ModelNode {
     s.free_records = static_cast<std::uint8_t>(capacity - queued());
     s.flags = StreamStatus::kSynchronised;
     s.path_units = static_cast<std::uint32_t>(tau_.count() / kPathTicksPerUnit);
+    s.tail_check = tail_check(next_, tail_, until_, tau_.count() / kPathTicksPerUnit);
     return s;
   }
 

@@ -179,6 +179,65 @@ TEST(NodeStream, PassesOnWhatTheNodeFound) {
   EXPECT_EQ(stream.on_status({}, s, path_units(0)).error().kind, StreamError::Kind::kUnderrun);
 }
 
+enum class Seen { kInTime, kLate, kRefused };
+
+/// One record of a run reaches the node with a wrong bit, and statuses come 120 ms apart.
+Seen status_sees(int record, int bit) {
+  constexpr std::int64_t kBegin = 10'000, kDuration = 1'250, kPeriod = 7'500, kStop = 4'063;  // 65 ms
+  NodeStream stream(1);
+  ModelNode node(1);
+  stream.reset({}, 0, 120);
+  push_run(stream, 100, kDuration);
+  stream.release(kBegin);
+  const std::int64_t begins = kBegin + std::max(0, record - 1) * kDuration;
+  std::int64_t now = kBegin - 3'000;
+  for (int statuses = 0, sent = 0; statuses < 6; ++statuses) {
+    // Path time runs when the first records are confirmed.
+    if (statuses >= 2) now += kPeriod;
+    node.advance_to(path_units(now));
+    const auto ok = stream.on_status({}, node.status(), path_units(now));
+    if (!node.complaint.empty()) return Seen::kRefused;
+    if (!ok) {
+      EXPECT_EQ(ok.error().kind, StreamError::Kind::kTakenOtherwise);
+      EXPECT_EQ(ok.error().node_id, 1);
+      return statuses == 1 || now + kStop <= begins ? Seen::kInTime : Seen::kLate;
+    }
+    while (auto frame = stream.next_frame({}, path_units(now))) {
+      if (frame->id == 0x401 && sent++ == record)
+        frame->data[static_cast<std::size_t>(bit) / 8] ^= static_cast<std::uint8_t>(1u << bit % 8);
+      node.on_frame(*frame);
+    }
+  }
+  return Seen::kLate;
+}
+
+TEST(NodeStream, SeesARecordWithAWrongBitBeforeItIsExecuted) {
+  int in_time = 0, late = 0, refused = 0;
+  for (int record = 0; record < 32; ++record)
+    for (int bit = 0; bit < 64; ++bit) {
+      const Seen seen = status_sees(record, bit);
+      ++(seen == Seen::kInTime ? in_time : seen == Seen::kLate ? late : refused);
+    }
+  EXPECT_GT(in_time, 1'500) << refused << " were refused";
+  EXPECT_LE(late, 4) << "one in 256 is missed at first, and the second look is late for the first of them";
+}
+
+TEST(NodeStream, ANodeThatTellsNoCheckIsBelieved) {
+  NodeStream stream(1);
+  ModelNode node(1);
+  stream.reset({}, 0, 120);
+  push_run(stream, 10, 100);
+  stream.release(0);
+  while (auto frame = stream.next_frame({}, path_units(0))) {
+    if (frame->id == 0x401 && (frame->data[0] & 0x7F) == 5) frame->data[3] ^= 1;
+    node.on_frame(*frame);
+  }
+  StreamStatus status = node.status();
+  EXPECT_FALSE(stream.on_status({}, status, path_units(0)));
+  status.tail_check.reset();
+  EXPECT_TRUE(stream.on_status({}, status, path_units(0)));
+}
+
 TEST(NodeStream, KnowsTheExactStateAndLineAtAnyPathTimeNotYetPassed) {
   NodeStream stream(1);
   ModelNode node(1);

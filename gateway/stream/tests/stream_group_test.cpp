@@ -144,6 +144,29 @@ TEST(StreamGroup, ASecondRunContinuesFromTheExactStates) {
   EXPECT_LE(bench.worst_error(second), 0.5);
 }
 
+TEST(StreamGroup, PathTimeWaitsUntilTheNodesHaveConfirmedTheTimeToLookAndToStop) {
+  Bench bench;
+  const auto phases = printed_lines(21, {.lines = 150});
+  bench.stand_at(phases.front());
+  bench.group.begin_run();
+  for (std::size_t k = 0; bench.group.wants_phases({}); ++k) ASSERT_TRUE(bench.group.push(phases[k]));
+  bench.group.release(PathTime{16'000 * 150});
+  const std::int64_t enough = bench.group.run_start().count() / kPathTicksPerUnit + 9'375;  // 150 ms
+  int waits = 0, primed = 0;
+  while (const auto frame = bench.group.next_frame({}, {})) {
+    std::int64_t least = INT64_MAX;
+    for (std::size_t n = 0; n < bench.nodes.size(); ++n) {
+      bench.nodes[n].on_frame(*frame);
+      ASSERT_TRUE(bench.group.on_status({}, bench.nodes[n].id(), bench.nodes[n].status(), {}));
+      least = std::min(least, bench.group.stream(n).accepted_until_units());
+    }
+    EXPECT_EQ(bench.group.primed({}), least >= enough) << least;
+    ++(least >= enough ? primed : waits);
+  }
+  EXPECT_GT(waits, 5);
+  EXPECT_GT(primed, 0);
+}
+
 TEST(StreamGroup, ANarrowBusSlowsThePathAndStarvesNobody) {
   // Lines of a millimetre take 320 frames a second at full rate; 5 % less overhead carry 146.
   Bench bench(0.05);

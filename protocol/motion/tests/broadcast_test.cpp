@@ -45,6 +45,38 @@ TEST(Broadcast, OneWrongBitAnywhereIsFound) {
   }
 }
 
+TEST(Broadcast, AStreamStatusTellsItselfWhetherItHasACheck) {
+  StreamStatus plain{101, 77, StreamStatus::kRunning | StreamStatus::kReordered, 3, 0xFEDC'BA98};
+  const std::uint64_t raw = encode(plain);
+  EXPECT_EQ(raw & 0x80, 0u) << "what a node has always told";
+  EXPECT_EQ(raw >> 32, 0xFEDC'BA98u);
+  EXPECT_FALSE(decode_stream_status(raw).tail_check);
+  EXPECT_EQ(decode_stream_status(raw).path_units, 0xFEDC'BA98u);
+  for (const std::uint8_t check : std::initializer_list<std::uint8_t>{0x00, 0x5A, 0xFF}) {
+    StreamStatus checked = plain;
+    checked.tail_check = check;
+    const StreamStatus told = decode_stream_status(encode(checked));
+    EXPECT_EQ(told.tail_check, check);
+    EXPECT_EQ(told.next_sequence, 101);
+    EXPECT_EQ(told.free_records, 77);
+    EXPECT_EQ(told.flags, plain.flags);
+    EXPECT_EQ(told.sync_error_us, 3);
+    EXPECT_EQ(told.path_units, 0xDC'BA98u);
+  }
+}
+
+TEST(Broadcast, PathTimeOfAStatusIsThatNearestToWhatIsKnown) {
+  for (const std::int64_t units : {std::int64_t{5}, std::int64_t{0xFF'FFFE}, std::int64_t{0x1'0000'0003}})
+    for (const std::int64_t apart :
+         {std::int64_t{-8'000'000}, std::int64_t{-1}, std::int64_t{0}, std::int64_t{8'000'000}})
+      for (const bool checked : {false, true}) {
+        StreamStatus status{.path_units = static_cast<std::uint32_t>(units + apart)};
+        if (checked) status.tail_check = 0xA5;
+        EXPECT_EQ(decode_stream_status(encode(status)).path_near(units), units + apart) << checked;
+      }
+  EXPECT_EQ((StreamStatus{.path_units = 0x8000'0000}).path_near(0x1'0000'0000), 0x8000'0000);
+}
+
 TEST(Broadcast, FramesOfOthersAreNoCommands) {
   for (const std::uint8_t byte : std::initializer_list<std::uint8_t>{0x00, 0xFF}) {
     CanFrame frame{.id = kRateCobId, .length = 8};

@@ -188,6 +188,13 @@ TEST(Dbc, PackedRecordsDecodeAsTheCodecPacks) {
   EXPECT_EQ(decode(stream, "Running", status), 0);
   EXPECT_EQ(decode(stream, "SyncError", status), 3);
   EXPECT_EQ(decode(stream, "PathTime", status), 16000);
+  EXPECT_FALSE(is_there(stream, "PathTimeLow", status) || is_there(stream, "TailCheck", status));
+  const CanFrame checked = frame_of(encode(StreamStatus{77, 120, 0, 3, 0x1234'5678, 0x9A}));
+  EXPECT_EQ(decode(stream, "NextSequence", checked), 77);
+  EXPECT_EQ(decode(stream, "FreeRecords", checked), 120);
+  EXPECT_EQ(decode(stream, "PathTimeLow", checked), 16.0 * 0x34'5678);
+  EXPECT_EQ(decode(stream, "TailCheck", checked), 0x9A);
+  EXPECT_FALSE(is_there(stream, "PathTime", checked));
 
   const CanFrame rate = encode(RateCommand{RateCommand::Kind::kStop, 7, 16384, 50, BusTime{123'456'000}});
   EXPECT_EQ(decode(messages.at(rate.id), "Counter", rate), 7);

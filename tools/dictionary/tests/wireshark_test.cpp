@@ -139,10 +139,11 @@ TEST(Wireshark, ReadsEveryRecordOfAPrintAsTheCodec) {
       tshark.read(tshark.candump(print_frames()),
                   {"kinebus.segment.sequence", "kinebus.segment.duration", "kinebus.segment.acceleration_a",
                    "kinebus.segment.acceleration_b", "kinebus.segment.control", "kinebus.segment.start",
-                   "kinebus.checkpoint.position", "kinebus.stream.pathtime", "kinebus.stream.freerecords",
-                   "kinebus.rate.rate", "kinebus.rate.start", "kinebus.stamp.microseconds"});
+                   "kinebus.checkpoint.position", "kinebus.stream.pathtime", "kinebus.stream.pathtimelow",
+                   "kinebus.stream.tailcheck", "kinebus.stream.freerecords", "kinebus.rate.rate",
+                   "kinebus.rate.start", "kinebus.stamp.microseconds"});
   ASSERT_EQ(told.size(), print_frames().size());
-  int starts = 0, ends = 0, motions = 0;
+  int starts = 0, ends = 0, motions = 0, checked = 0;
   for (std::size_t i = 0; i < told.size(); ++i) {
     const CanFrame& frame = print_frames()[i];
     DissectedFrame fields = told[i];
@@ -171,8 +172,14 @@ TEST(Wireshark, ReadsEveryRecordOfAPrintAsTheCodec) {
       EXPECT_NEAR(number("checkpoint.position"),
                   static_cast<double>(decode_checkpoint(raw).position) / 4294967296.0, 1e-7);
     } else if (frame.id > 0x280 && frame.id < 0x2FF) {
-      EXPECT_EQ(number("stream.pathtime"), 16.0 * decode_stream_status(raw).path_units);
-      EXPECT_EQ(number("stream.freerecords"), decode_stream_status(raw).free_records);
+      const StreamStatus status = decode_stream_status(raw);
+      EXPECT_EQ(number(status.tail_check ? "stream.pathtimelow" : "stream.pathtime"),
+                16.0 * status.path_units);
+      if (status.tail_check) {
+        EXPECT_EQ(number("stream.tailcheck"), *status.tail_check);
+        ++checked;
+      }
+      EXPECT_EQ(number("stream.freerecords"), status.free_records);
     } else if (frame.id == kRateCobId) {
       const auto rate = decode_rate_command(frame, BusTime{0}).value_or(RateCommand{});
       EXPECT_EQ(number("rate.rate"), rate.rate_q15 / 32768.0);
@@ -185,6 +192,7 @@ TEST(Wireshark, ReadsEveryRecordOfAPrintAsTheCodec) {
   EXPECT_GT(starts, 2);
   EXPECT_GT(ends, 2);
   EXPECT_GT(motions, 50);
+  EXPECT_GT(checked, 20);
 }
 
 TEST(Wireshark, NamesEveryKindOfFrame) {

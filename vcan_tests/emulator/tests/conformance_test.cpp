@@ -7,6 +7,7 @@
 
 #include "protocol/canopen/boards/stm32f446_octopus.hpp"
 #include "protocol/canopen/boards/stm32g0b1_ebb.hpp"
+#include "protocol/motion/tail_check.hpp"
 #include "tools/simulation/bus/virtual_machine.hpp"
 #include "vcan_tests/emulator/ebb_board.hpp"
 #include "vcan_tests/emulator/emulated_machine.hpp"
@@ -160,6 +161,15 @@ TYPED_TEST(Conformance, StreamedPositionsAreThoseOfTheirPathTimeToTheBit) {
       this->bench.send(feed.segment(1250, sign * 612'345, TypeParam::kAxes > 1 ? -sign * 254'321 : 0));
   this->bench.send(feed.end());
   this->bench.run(100ms);
+  const auto status = [&] {
+    return decode_stream_status(static_cast<std::uint64_t>(this->bench.read_long(kId, 0x2102)));
+  };
+  EXPECT_EQ(this->bench.read(kId, 0x2118, 0) & kTellsTailCheck, kTellsTailCheck);
+  EXPECT_FALSE(status().tail_check) << "before anybody has asked";
+  this->bench.write(kId, 0x2119, 0, 1, 1);
+  const std::int64_t units = path_ticks() / kPathTicksPerUnit;
+  EXPECT_EQ(status().tail_check, tail_check(feed.sequence, feed.state, feed.begin_units, units));
+  EXPECT_EQ(status().path_near(units), units);
   // Holds at arbitrary path times in the middle of segments.
   for (const auto span : {1'234'567us, 333'221us, 256'789us, 177'777us}) {
     this->bench.rate(1);
