@@ -122,7 +122,6 @@ bool Segmenter::ready() const {
 }
 
 double Segmenter::known() const {
-  if (complete_) return kForever;
   return pieces_[(at_.first + at_.count - 1) & (kCapacity - 1)].end - static_cast<double>(at_.knot);
 }
 
@@ -249,13 +248,11 @@ bool Segmenter::leads_on(const Fit& f, int depth) {
   const Position before = at_;
   apply(f);
   const Fit following = choose();  // a copy: its place is needed again
-  // One that more path might change proves something, but is chosen anew.
-  const bool lasts = complete_ || furthest_ + 2 < at_.count;
   const bool far_enough = depth <= 0 && f.units + following.units >= kProofUnits;
   const bool proved =
       following.error <= 1 && (far_enough || (depth > -kMoreProofs && leads_on(following, depth - 1)));
   at_ = before;
-  if (proved) planned_ = lasts ? std::optional(following) : std::nullopt;
+  if (proved) planned_ = following;
   return proved;
 }
 
