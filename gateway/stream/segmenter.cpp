@@ -119,7 +119,6 @@ bool Segmenter::ready() const {
 }
 
 double Segmenter::known() const {
-  if (complete_) return kForever;
   return pieces_[(pushed_ - 1) & (kCapacity - 1)].end - static_cast<double>(at_.knot);
 }
 

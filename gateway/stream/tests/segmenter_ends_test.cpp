@@ -154,6 +154,33 @@ TEST(Segmenter, SpansOfATenthOfAMillisecondGoThrough) {
   EXPECT_LE(f.segments, 40u);
 }
 
+TEST(Segmenter, AWaveOfSpansAsDenseGoesThroughAllAlong) {
+  for (const double part_s : {0.5e-4, 1e-4, 2e-4, 4e-4}) {
+    constexpr double kWay = 12, kOmega = 12;  // up to 144 mm/s, 1,728 mm/s^2
+    const auto q = [&](double t) { return 600 + kWay * (1 - std::cos(kOmega * t)); };
+    const auto v = [&](double t) { return kWay * kOmega * std::sin(kOmega * t); };
+    std::vector<JointSpan> spans;
+    const double seconds = 4 * M_PI / kOmega;
+    const int parts = static_cast<int>(seconds / part_s);
+    const double h = seconds / parts;
+    for (int k = 0; k < parts; ++k) {
+      JointSpan s;
+      s.start_s = k * h;
+      s.duration_s = h;
+      const double q0 = q(k * h), q1 = q((k + 1) * h), v0 = v(k * h), v1 = v((k + 1) * h),
+                   mean = (q1 - q0) / h;
+      s.coefficients[0] = {q0, v0, (3 * mean - 2 * v0 - v1) / h, (v0 + v1 - 2 * mean) / (h * h)};
+      s.last = k + 1 == parts;
+      spans.push_back(s);
+    }
+    Segmenter segmenter(one_axis());
+    const Followed f = follow(segmenter, spans, standing(segmenter.node(), spans[0]));
+    EXPECT_LE(f.worst, 0.5) << part_s;
+    EXPECT_EQ(segmenter.counters().loose, 0u) << part_s;
+    EXPECT_LE(f.segments, 200u) << part_s;
+  }
+}
+
 TEST(Segmenter, ARunOfAnyLengthEndsAtRestAtItsPlace) {
   for (const double duration : {2e-6, 16e-6, 50e-6, 0.0005, 0.001, 0.003, 0.02}) {
     for (const double way : {0.0, 1e-5, 2e-4}) {

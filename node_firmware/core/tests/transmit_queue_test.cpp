@@ -80,5 +80,58 @@ TEST(TransmitQueue, NothingIsLostOrReorderedWithinAnIdentifier) {
     ASSERT_EQ(frame.data[0], expected[(frame.id - 0x081) / 0x100]++) << "id " << frame.id;
 }
 
+TEST(TransmitQueue, TakesBackTheLeastUrgentOnceAndLoadsWhenItIsEmpty) {
+  TransmitQueue queue;
+  EXPECT_TRUE(queue.idle());
+  for (const std::uint32_t id : {0x281u, 0x701u, 0x581u}) queue.push(CanFrame::make(id, {}));
+  EXPECT_FALSE(queue.idle());
+  // The most urgent first; each into the next mailbox.
+  int next = 0;
+  for (const std::uint32_t id : {0x281u, 0x581u, 0x701u}) {
+    const auto load = queue.next();
+    ASSERT_EQ(load.kind, Kind::kLoad);
+    EXPECT_EQ(load.mailbox, next++);
+    EXPECT_EQ(load.frame.id, id);
+  }
+  EXPECT_FALSE(queue.idle()) << "in mailboxes";
+  queue.push(CanFrame::make(0x701, {1}));
+  queue.push(CanFrame::make(0x702, {1}));
+  EXPECT_EQ(queue.next().kind, Kind::kNothing) << "none is less urgent";
+  queue.push(CanFrame::make(0x601, {}));
+  const auto abort = queue.next();
+  ASSERT_EQ(abort.kind, Kind::kAbort);
+  EXPECT_EQ(abort.mailbox, 2) << "701h";
+  EXPECT_EQ(queue.next().kind, Kind::kNothing) << "asked for already";
+  queue.on_empty(2, false);
+  const auto load = queue.next();
+  ASSERT_EQ(load.kind, Kind::kLoad);
+  EXPECT_EQ(load.frame.id, 0x601u);
+  // What was taken back goes before its equal.
+  queue.on_empty(0, true);
+  EXPECT_EQ(queue.next().frame, CanFrame::make(0x701, {}));
+  queue.on_empty(1, true);
+  EXPECT_EQ(queue.next().frame, CanFrame::make(0x702, {1})) << "one of an identifier at a time";
+  EXPECT_EQ(queue.next().kind, Kind::kNothing);
+  queue.on_empty(0, true);
+  EXPECT_EQ(queue.next().frame, CanFrame::make(0x701, {1}));
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_FALSE(queue.idle());
+    queue.on_empty(i, true);
+  }
+  EXPECT_TRUE(queue.idle());
+  queue.on_empty(1, true);
+  EXPECT_TRUE(queue.idle()) << "an empty one";
+}
+
+TEST(TransmitQueue, HasRoomForWhatIsTakenBack) {
+  TransmitQueue queue(1);
+  int pushed = 0;
+  while (queue.has_room()) queue.push(CanFrame::make(0x700u + static_cast<std::uint32_t>(pushed++), {}));
+  EXPECT_EQ(pushed, 5);
+  ASSERT_EQ(queue.next().kind, Kind::kLoad);
+  EXPECT_EQ(queue.next().kind, Kind::kNothing) << "one mailbox is given";
+  EXPECT_TRUE(queue.has_room());
+}
+
 }  // namespace
 }  // namespace kinebus
