@@ -204,17 +204,21 @@ std::optional<CanFrame> Gateway::Core::next_plain_frame(BusTime now) {
 }
 
 BusTime Gateway::Core::next_deadline() const {
+  // In pieces of fewer lines planning has as much of the time.
+  const auto piece = [this](BusTime wait) {
+    return wait * options_.planning_budget / Options{}.planning_budget;
+  };
   BusTime wait = 100ms;
   switch (state_.now()) {
     case MachineState::kChecking:
-      wait = 1ms;
+      wait = piece(1ms);
       break;
     case MachineState::kRunning:
     case MachineState::kMoving:
     case MachineState::kHolding:
     case MachineState::kCancelling:
     case MachineState::kStopping:
-      wait = 5ms;
+      wait = runner_->plans_on() ? piece(5ms) : 5ms;
       break;
     case MachineState::kBringUp:
     case MachineState::kHoming:
@@ -233,9 +237,6 @@ BusTime Gateway::Core::next_deadline() const {
     if (deadline > now_) due = std::min(due, deadline);
   return due;
 }
-
-// Time
-// ------------------------------------------------------------------------------------------------------
 
 void Gateway::Core::on_time(BusTime now) {
   served_ = now_ = std::max(now_, now);

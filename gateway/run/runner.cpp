@@ -188,6 +188,7 @@ Runner::Outcome Runner::on_time(BusTime now, int budget) {
   if (!active_) return Outcome::kDone;
   const BusTime elapsed = std::max(BusTime{0}, now - last_time_);
   last_time_ = now;
+  plans_on_ = false;
   if (suspended_) return Outcome::kBusy;
   if ((wait_ == Wait::kDwell || wait_ == Wait::kInput) && !held_)
     dwell_left_ -= std::min(dwell_left_, elapsed);
@@ -207,7 +208,8 @@ Runner::Outcome Runner::on_time(BusTime now, int budget) {
     if (stop_asked_) return Outcome::kEmergencyStop;
     if (!finished_ && !feed_.wants_phase(rate_.tau(now))) break;
     const JobPipeline::Step step = pipeline_.next(budget);
-    if (step == JobPipeline::Step::kMore) break;
+    plans_on_ = step == JobPipeline::Step::kMore;
+    if (plans_on_) break;
     if (step == JobPipeline::Step::kStarved) {
       settle_when_late(now);
       break;

@@ -130,6 +130,8 @@ class Runner {
 
   /// Plans at most about `budget` lines ahead, executes what is due.
   Outcome on_time(BusTime now, int budget);
+  /// The last on_time() left lines to plan.
+  bool plans_on() const { return plans_on_; }
   const Failure& failure() const { return failure_; }
 
   /// Feed hold: the rate goes to 0, in a thread behind the pass, and the waits between runs stand still.
@@ -286,7 +288,7 @@ class Runner {
   std::unique_ptr<ByteSource> source_;
   Pose start_{};
 
-  bool active_ = false, held_ = false, still_ = false, suspended_ = false;
+  bool active_ = false, held_ = false, still_ = false, suspended_ = false, plans_on_ = false;
   bool live_ = false;           ///< commands come over time
   bool noted_ = false;          ///< in the journal: a job, not a motion by hand
   bool started_ = false;        ///< path time was let go for this run
