@@ -72,8 +72,10 @@ bool too_slow(const Problem& p, ProfileTicks first, std::uint64_t distance, Prof
 /// room for.
 [[gnu::noinline]] std::optional<std::uint64_t> ramp_way(std::int64_t velocity, ProfileTicks ticks) {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 63;
-  if (static_cast<std::uint64_t>(ticks) > kMost / (static_cast<std::uint64_t>(velocity >> 24) + 1))
-    return std::nullopt;
+  const auto speed = static_cast<std::uint64_t>(velocity >> 24) + 1,
+             length = static_cast<std::uint64_t>(ticks);
+  // A division takes a small processor long: hardly ever is it that near.
+  if (std::bit_width(speed) + std::bit_width(length) > 63 && length > kMost / speed) return std::nullopt;
   return static_cast<std::uint64_t>(distance_of(velocity, ticks)) / 2;
 }
 
@@ -189,6 +191,7 @@ void Trapezoid::add(ProfileTicks length, std::int64_t position, std::int64_t vel
 
 ProfileState Trapezoid::brake(ProfileState from, std::int64_t deceleration) {
   const std::int64_t speed = from.velocity < 0 ? -from.velocity : from.velocity;
+  if (speed == 0) return from;  // no division in the main loop of a small processor
   const ProfileTicks length = ticks_for(speed, deceleration);
   add(length, from.position, from.velocity, 0);
   return {from.position + distance_of(from.velocity, length) / 2, 0};
@@ -202,7 +205,8 @@ void Trapezoid::run(ProfileTicks start, ProfileState from, std::int64_t target, 
   if (!solve(problem, d)) {
     from = brake(from, problem.deceleration);
     problem = problem_from(from, target, limits, true);
-    if (!solve(problem, d)) return hold_after(from);
+    // Where it stands is where it goes: found at once, not by all that is tried in vain.
+    if (problem.distance == 0 || !solve(problem, d)) return hold_after(from);
   }
   const std::int64_t sign = target >= from.position ? 1 : -1;
   const std::int64_t v0 = sign * problem.v0;

@@ -1,4 +1,5 @@
-// The owner chooses how much is planned in one turn: with fewer lines there are more turns, not less planning.
+// The owner chooses how much is planned in one turn: with fewer lines there are more turns, not less
+// planning.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,8 @@ Turns turns_of(int planning_budget) {
   EXPECT_TRUE(rig.gateway->carry_out(command::Run{std::make_unique<StringSource>(text), "lines"}));
   Turns turns;
   const auto since = [&] { return to_seconds(rig.now - asked); };
-  EXPECT_TRUE(rig.run_until([&] { return ++turns.checking, rig.gateway->state() == MachineState::kRunning; }, 60s));
+  EXPECT_TRUE(
+      rig.run_until([&] { return ++turns.checking, rig.gateway->state() == MachineState::kRunning; }, 60s));
   turns.checked_s = since();
   EXPECT_TRUE(rig.run_until([&] { return rig.gateway->status().progress > 0; }, 60s)) << rig.story();
   turns.begun_s = since();
