@@ -49,7 +49,10 @@ TEST(Reordering, APrintOfTenMinutesThroughAnAdapterThatReordersNeverStops) {
     EXPECT_GT(report.records_out_of_sequence, 20u) << "the adapter does what it is here for";
     EXPECT_EQ(outcome.stops, 0);
     EXPECT_NEAR(report.max_path_error_um, plain.max_path_error_um, 0.5);
-    EXPECT_NEAR(report.job_time_s, plain.job_time_s, 0.01);
+    // A run begins at the status that confirms enough of it; those are 100 ms apart, and one may come
+    // earlier.
+    EXPECT_LE(report.job_time_s, plain.job_time_s + 0.01);
+    EXPECT_GE(report.job_time_s, plain.job_time_s - 0.11);
   }
 }
 
