@@ -56,12 +56,16 @@ bool too_slow(const Problem& p, ProfileTicks first, std::uint64_t distance, Prof
   // distance = (v0 + peak)/2 first + peak cruise + peak/2 last
   const ProfileTicks sum = d.first + 2 * d.cruise + d.last;
   if (too_slow(p, d.first, p.distance - fixed, sum)) return false;
-  d.peak = velocity_over(p.distance - fixed, sum) * 2;
+  // Faster than 64 bits hold.
+  if (((p.distance - fixed) >> 39) >= static_cast<std::uint64_t>(sum)) return false;
+  const std::int64_t half = velocity_over(p.distance - fixed, sum);
+  if (half > std::max(p.vmax, p.v0) / 2) return false;
+  d.peak = half * 2;
   const std::int64_t change = d.peak - p.v0;
   const bool change_ok =
       change >= 0 ? change <= (p.acceleration * d.first) >> 4 : -change <= (p.deceleration * d.first) >> 4;
   const bool last_ok = !p.to_rest || d.peak <= (p.deceleration * d.last) >> 4;
-  return change_ok && last_ok && d.peak <= std::max(p.vmax, p.v0);
+  return change_ok && last_ok;
 }
 
 [[gnu::noinline]] ProfileTicks last_for(const Problem& p, std::int64_t peak) {
