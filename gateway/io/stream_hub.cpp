@@ -190,10 +190,13 @@ void StreamHub::pay(LocalTime now) {
   };
   credit_ = std::min(options_.burst, credit_ + share_of(now - paid_));
   paid_ = now;
-  if (work_until_ != LocalTime::max())
+  if (work_until_ != LocalTime::max()) {
     credit_ = std::max(-options_.burst, credit_ - (thread_time() - began_));
+    waited_ = false;
+  }
   work_until_ = LocalTime::max();
-  if (in_the_way(monotonic_now())) rest_until_ = clear_to_ - loop_.behind() + kAfterwards;
+  clears_ = in_the_way(monotonic_now());
+  if (clears_) rest_until_ = clear_to_ - loop_.behind() + kAfterwards;
   if (credit_ < LocalTime{0}) {
     const LocalTime rest{static_cast<std::int64_t>(static_cast<double>(-credit_.count()) / options_.share)};
     rest_until_ = std::max(rest_until_, now + std::min(rest, kMostRest));
@@ -211,6 +214,7 @@ void StreamHub::on_time(LocalTime now) {
   if (rest_until_ != LocalTime{0}) {
     watch_all(EPOLLIN);
     rest_until_ = LocalTime{0};
+    waited_ = clears_;
     // What is served below may use up all again: who has come since, and what they said, is heard before.
     return;
   }

@@ -47,7 +47,8 @@ class StreamHub : public DaemonPart, private WorkGate {
   StreamHub& operator=(const StreamHub&) = delete;
 
   /// Nothing is begun that might not be done when `due()`, a time of the loop, comes (max: none); until then
-  /// streams rest. What may take so long is what has lately taken longest.
+  /// streams rest. What may take so long is what has lately taken longest. Behind each such rest they have a
+  /// turn.
   void keep_clear_of(std::function<LocalTime()> due) { due_ = std::move(due); }
 
   /// False: too many streams, both are destroyed.
@@ -84,7 +85,7 @@ class StreamHub : public DaemonPart, private WorkGate {
   void watch_all(std::uint32_t events);
   void serve(Pair& pair, LocalTime now);
   bool time_left();
-  bool in_the_way(LocalTime now) const { return clear_from_ <= now && now < clear_to_; }
+  bool in_the_way(LocalTime now) const { return !waited_ && clear_from_ <= now && now < clear_to_; }
   void send(Pair& pair);
   void watch(Pair& pair, bool has_output);
   void close(Pair& pair, const char* why);
@@ -103,6 +104,8 @@ class StreamHub : public DaemonPart, private WorkGate {
   std::function<LocalTime()> due_;
   LongestPiece longest_;
   LocalTime clear_from_{0}, clear_to_{0};  ///< in this turn, by the computer's time
+  bool clears_ = false;                    ///< streams rest because something is due
+  bool waited_ = false;                    ///< they have: the next turn is theirs, whatever is due again
 };
 
 }  // namespace kinebus
