@@ -11,10 +11,10 @@ namespace {
 // Of a phase: shorter ones are rounding, 3 pm of path at 300 mm/s.
 constexpr double kBriefest_s = 1e-11;
 constexpr double kShortest_mm = JerkWindow::kShortest_mm;
-// The peak of a stretch that reaches no cap: to 1e-6 of what there is to gain.
-constexpr int kHalvings = 20;
-// The same where the stretch begins and ends at rest, and would not be passed at all.
-constexpr int kMostHalvings = 200;
+// The peak of a stretch that reaches no cap: to this part of what there is to gain, or of the way.
+constexpr double kNearPeak = 1e-6;
+// Of tries for it; a stretch that begins and ends at rest needs one that is not 0.
+constexpr int kMostTries = 200;
 // The speed of a bend that has no room for its cap.
 constexpr int kBendHalvings = 6;
 // Times that one stretch may be tried with a higher cap than its lowest.
@@ -63,7 +63,7 @@ JerkLookahead::Fit JerkLookahead::fit(const Stretch& stretch, std::size_t first,
       if (i == first || window_.start(i) < f.cruise_to) break;
     }
   }
-  f.fits = f.cruise_from <= f.cruise_to;
+  f.fits = f.room() >= 0;
   return f;
 }
 
@@ -84,19 +84,52 @@ bool JerkLookahead::keeps_caps(const Stretch& stretch, std::size_t first, std::s
   return true;
 }
 
-/// No piece can be passed at its cap: up, and down again.
-void JerkLookahead::solve_below_caps(const Stretch& stretch, std::size_t first, std::size_t last,
-                                     double cap) {
-  const double higher = std::max(stretch.v0, stretch.v1);
-  double low = higher, high = cap;
-  Fit best = fit(stretch, first, last, higher);
-  no_room_ = no_room_ || best.cruise_from > best.cruise_to + kShortest_mm;
-  for (int k = 0; k < kHalvings || (low == 0 && k < kMostHalvings); ++k) {
-    const double middle = 0.5 * (low + high);
-    const Fit tried = fit(stretch, first, last, middle);
-    (tried.fits ? low : high) = middle;
-    if (tried.fits) best = tried;
+/// The greatest speed, below `cap`, for which there is room; `lack`: of way, at the cap. Where there is none
+/// even for ramps to the higher of the ends' speeds, that speed.
+JerkLookahead::Peak JerkLookahead::peak(const Stretch& stretch, std::size_t first, std::size_t last,
+                                        double cap, double lack) const {
+  const double higher = std::max(stretch.v0, stretch.v1), way = stretch.to - stretch.from;
+  Peak best{.speed = higher, .fit = fit(stretch, first, last, higher)};
+  if (!best.fit.fits) return best;
+  // The way left shrinks as the speed grows: false position (Anderson and Bjoerck), aimed at what is near
+  // enough, and a halving whenever two steps left more than half.
+  const auto weight = [](double now, double then) { return now < then ? 1 - now / then : 0.5; };
+  // No step is smaller than what is near enough: above a bend that lets no ramp pass, ramps of a little less
+  // than that would creep.
+  const double least = kNearPeak * (cap - higher);
+  double high = cap, room = best.fit.room(), before = 2 * (high - higher);
+  bool halve = false;
+  for (int k = 0; k < kMostTries; ++k) {
+    const double open = high - best.speed;
+    if (best.speed > 0 && (open <= least || best.fit.room() <= kNearPeak * way)) break;
+    if (k % 2 == 0) {
+      halve = open > 0.5 * before;
+      before = open;
+    }
+    const double aim = 0.5 * kNearPeak * way;
+    const double share = halve || !(room > aim) ? 0.5 : (room - aim) / (room - lack);
+    const double speed = best.speed + std::max(share * open, std::min(least, 0.5 * open));
+    const Fit tried = fit(stretch, first, last, speed);
+    if (tried.fits) {
+      best = {.speed = speed, .fit = tried};
+      lack *= weight(tried.room(), room);
+      room = tried.room();
+    } else {
+      high = speed;
+      room *= weight(-tried.room(), -lack);
+      lack = tried.room();
+    }
   }
+  return best;
+}
+
+/// No piece can be passed at its cap: up, and down again. `lack`: of way for it, mm.
+void JerkLookahead::solve_below_caps(const Stretch& stretch, std::size_t first, std::size_t last, double cap,
+                                     double lack) {
+  const Peak found = peak(stretch, first, last, cap, lack);
+  const double low = found.speed;
+  const Fit& best = found.fit;
+  no_room_ = no_room_ || best.room() < -kShortest_mm;
   const double from = std::min(best.cruise_from, stretch.to), to = std::max(best.cruise_to, from);
   put(stretch.from, from, best.up);
   const SpeedRamp steady(low, low, 1, 1);
@@ -144,7 +177,7 @@ void JerkLookahead::solve(const Stretch& stretch) {
       if (tried.fits) f = tried;
     }
   }
-  if (!f.fits) return solve_below_caps(stretch, first, last, cap);
+  if (!f.fits) return solve_below_caps(stretch, first, last, cap, f.room());
   for (int k = 0; k < kRaises && !descends; ++k) {
     if (window_.start(slowest + 1) > f.cruise_from) break;
     if (!(f.cruise_to > f.cruise_from)) break;

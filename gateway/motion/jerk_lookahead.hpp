@@ -63,13 +63,19 @@ class JerkLookahead {
     SpeedRamp up, down;
     double cruise_from = 0, cruise_to = 0;
     bool fits = false;
+    double room() const { return cruise_to - cruise_from; }  ///< mm; negative: what is lacking
+  };
+  struct Peak {
+    double speed = 0;
+    Fit fit;
   };
 
   void plan();
   void solve(const Stretch& stretch);
   Fit fit(const Stretch& stretch, std::size_t first, std::size_t last, double speed) const;
   bool keeps_caps(const Stretch& stretch, std::size_t first, std::size_t last, const Fit& fit) const;
-  void solve_below_caps(const Stretch& stretch, std::size_t first, std::size_t last, double cap);
+  Peak peak(const Stretch& stretch, std::size_t first, std::size_t last, double cap, double lack) const;
+  void solve_below_caps(const Stretch& stretch, std::size_t first, std::size_t last, double cap, double lack);
   void put(double from, double to, const SpeedRamp& ramp, bool capped = false);
   void commit();
   bool give(Phase& phase);
