@@ -12,12 +12,15 @@ namespace kinebus {
 namespace {
 
 constexpr int kArms = 3, kJointE = 3, kJoints = 4;
+constexpr double kRounding = 1e-9;  // of a cosine
 using Kind = PoseError::Kind;
 
 class LinearDelta final : public Kinematics {
  public:
   explicit LinearDelta(const LinearDeltaGeometry& geometry)
-      : g_(geometry), ll_(g_.arm_length_mm * g_.arm_length_mm) {
+      : g_(geometry),
+        ll_(g_.arm_length_mm * g_.arm_length_mm),
+        least_cosine_(std::cos(g_.max_arm_angle_rad) + kRounding) {
     for (std::size_t i = 0; i < kArms; ++i) {
       tx_[i] = g_.radius_mm * std::cos(g_.tower_angle_rad[i]);
       ty_[i] = g_.radius_mm * std::sin(g_.tower_angle_rad[i]);
@@ -130,7 +133,9 @@ class LinearDelta final : public Kinematics {
       const auto k = static_cast<std::size_t>(i);
       if (auto e = outside_error(Kind::kJointLimit, i, g_.travel_mm[k], joints[k], false))
         return Error<PoseError>(*e);
-      const double angle = std::acos(std::clamp((joints[k] - pose[kZ]) / g_.arm_length_mm, -1.0, 1.0));
+      const double cosine = (joints[k] - pose[kZ]) / g_.arm_length_mm;
+      if (cosine > least_cosine_) continue;
+      const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
       if (angle > g_.max_arm_angle_rad)
         return Error<PoseError>({Kind::kLegAngle, i, angle - g_.max_arm_angle_rad, true});
     }
@@ -160,6 +165,7 @@ class LinearDelta final : public Kinematics {
 
   LinearDeltaGeometry g_;
   double ll_;
+  double least_cosine_;  ///< of an arm's angle that is certainly allowed
   double tx_[kArms], ty_[kArms];
 };
 

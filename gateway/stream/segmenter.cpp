@@ -114,8 +114,8 @@ void Segmenter::push(const JointSpan& span) {
 }
 
 bool Segmenter::ready() const {
-  if (count() == 0) return false;
-  return complete_ || !has_room() || piece(count() - 1).end >= static_cast<double>(at_.knot) + 3 * kLongest;
+  return count() > 0 &&
+         (complete_ || !has_room() || place(count() - 1).end >= static_cast<double>(at_.knot) + 3 * kLongest);
 }
 
 double Segmenter::known() const {

@@ -149,6 +149,7 @@ class Segmenter {
   /// More path has come that might have changed the choice.
   bool is_stale(const Link& link) const { return link.pushed != kWhateverComes && link.pushed != pushed_; }
   Piece& place(std::size_t i) { return pieces_[(at_.first + i) & (kCapacity - 1)]; }
+  const Piece& place(std::size_t i) const { return pieces_[(at_.first + i) & (kCapacity - 1)]; }
   void append(const Piece& piece);
   static void widen(Axis& axis, double offset);
   bool ready() const;

@@ -104,25 +104,34 @@ Result<void, StreamError> StreamGroup::pump() {
   for (Node& node : nodes_) drain(node);
   const auto room = [](const Node& node) { return node.segmenter.has_room() && node.stream.has_room(); };
   while (std::all_of(nodes_.begin(), nodes_.end(), room)) {
-    auto piece = take_up_.next();
-    if (!piece) {
-      const auto span = sampler_.next();
-      if (!span) return Error<StreamError>(span.error());
-      if (!*span) break;
-      take_up_.push(**span);
-      piece = take_up_.next();
+    auto span = take_up_.next();
+    if (!span) {
+      auto sampled = sampler_.next();
+      if (!sampled) return Error<StreamError>(sampled.error());
+      if (!*sampled) break;
+      if (take_up_.needed()) {
+        take_up_.push(**sampled);
+        span = take_up_.next();
+      } else {
+        span = std::move(*sampled);
+      }
     }
-    for (Node& node : nodes_) {
-      node.segmenter.push(*piece);
-      if (!begun_ && node.segmenter.start_offset_counts() > options_.start_offset_counts)
-        return Error<StreamError>({.kind = StreamError::Kind::kStartMismatch,
-                                   .node_id = node.stream.node_id(),
-                                   .line = piece->line,
-                                   .amount = node.segmenter.start_offset_counts()});
-      drain(node);
-    }
-    begun_ = true;
+    if (auto ok = feed(*span); !ok) return ok;
   }
+  return {};
+}
+
+Result<void, StreamError> StreamGroup::feed(const JointSpan& span) {
+  for (Node& node : nodes_) {
+    node.segmenter.push(span);
+    if (!begun_ && node.segmenter.start_offset_counts() > options_.start_offset_counts)
+      return Error<StreamError>({.kind = StreamError::Kind::kStartMismatch,
+                                 .node_id = node.stream.node_id(),
+                                 .line = span.line,
+                                 .amount = node.segmenter.start_offset_counts()});
+    drain(node);
+  }
+  begun_ = true;
   return {};
 }
 

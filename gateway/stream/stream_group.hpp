@@ -112,6 +112,7 @@ class StreamGroup {
   bool all_accepted() const;
   /// Sampler to segmenters to streams, as far as there is room.
   Result<void, StreamError> pump();
+  Result<void, StreamError> feed(const JointSpan& span);
   void drain(Node& node);
   /// Time of the run, s.
   double run_time(PathTime tau) const { return to_seconds(tau) - to_seconds(run_start()); }

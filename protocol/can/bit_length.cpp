@@ -1,49 +1,88 @@
 #include "protocol/can/bit_length.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace kinebus {
 namespace {
 
 constexpr unsigned kCrcPolynomial = 0x4599;  // CRC-15-CAN
 
+constexpr std::size_t kMostBytes = 5 + 8;  // of header and data
+
+/// [bytes behind it][byte]: what a byte leaves in the CRC.
 constexpr auto kCrcTable = [] {
-  std::array<std::uint16_t, 256> table{};
-  for (unsigned byte = 0; byte < 256; ++byte) {
-    unsigned crc = byte << 7;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc & 0x4000u) != 0 ? (crc << 1) ^ kCrcPolynomial : crc << 1;
-    table[byte] = static_cast<std::uint16_t>(crc & 0x7FFFu);
+  std::array<std::array<std::uint16_t, 256>, kMostBytes> table{};
+  for (std::size_t byte = 0; byte < 256; ++byte) {
+    unsigned crc = static_cast<unsigned>(byte) << 7;
+    for (std::size_t behind = 0; behind < kMostBytes; ++behind) {
+      for (int bit = 0; bit < 8; ++bit) crc = (crc & 0x4000u) != 0 ? (crc << 1) ^ kCrcPolynomial : crc << 1;
+      crc &= 0x7FFFu;
+      table[behind][byte] = static_cast<std::uint16_t>(crc);
+    }
   }
   return table;
 }();
 
 // State of the stuffer: level of the last bit, and how many in a row had it (1..4; a fifth brings the stuff
 // bit, and with it a run of one): level * 4 + run - 1.
-constexpr int kStates = 8;
-struct Step {
-  std::uint8_t state = 0;
-  std::uint8_t stuffed = 0;
-};
+// A step of one byte gives the next state in bits 8 to 10, and the stuff bits that it brings below.
+constexpr unsigned kStates = 8, kStateMask = 0x700;
 constexpr auto kStuffTable = [] {
-  std::array<std::array<Step, 256>, kStates> table{};
+  std::array<std::uint16_t, kStates * 256> table{};
   for (unsigned state = 0; state < kStates; ++state) {
     for (unsigned byte = 0; byte < 256; ++byte) {
-      unsigned level = state / 4, run = state % 4 + 1;
-      Step step;
+      unsigned level = state / 4, run = state % 4 + 1, stuffed = 0;
       for (int bit = 7; bit >= 0; --bit) {
         const unsigned next = (byte >> bit) & 1u;
         run = next == level ? run + 1 : 1;
         level = next;
         if (run == 5) {
-          ++step.stuffed;
+          ++stuffed;
           level ^= 1u;
           run = 1;
         }
       }
-      step.state = static_cast<std::uint8_t>(level * 4 + run - 1);
-      table[state][byte] = step;
+      table[state * 256 + byte] = static_cast<std::uint16_t>((level * 4 + run - 1) << 8 | stuffed);
     }
   }
   return table;
 }();
+
+// What the bytes of header and data leave in the CRC and in the stuffer. A stuffer's sum of steps holds the
+// number of stuff bits in its low byte.
+struct Passed {
+  unsigned crc = 0;
+  unsigned step = 0, sum = 0;
+
+  void stuff(unsigned byte) {
+    step = kStuffTable[(step & kStateMask) | (byte & 0xFFu)];
+    sum += step;
+  }
+};
+
+/// `first`: the first byte as the stuffer sees it.
+inline Passed pass(const std::uint8_t* bytes, std::size_t count, unsigned first) {
+  Passed passed;
+  passed.crc = kCrcTable[count - 1][bytes[0]];
+  passed.stuff(first);
+  for (std::size_t i = 1; i < count; ++i) {
+    passed.crc ^= kCrcTable[count - 1 - i][bytes[i]];
+    passed.stuff(bytes[i]);
+  }
+  return passed;
+}
+
+/// The same of a number of bytes that is known beforehand, without a loop.
+template <std::size_t... kRest>
+Passed pass(const std::uint8_t* bytes, unsigned first, std::index_sequence<kRest...>) {
+  constexpr std::size_t kCount = sizeof...(kRest) + 1;
+  Passed passed;
+  passed.crc = (kCrcTable[kCount - 1][bytes[0]] ^ ... ^ kCrcTable[kCount - 2 - kRest][bytes[kRest + 1]]);
+  passed.stuff(first);
+  (passed.stuff(bytes[kRest + 1]), ...);
+  return passed;
+}
 
 }  // namespace
 
@@ -61,29 +100,20 @@ int bit_length(const CanFrame& frame) {
   const int header_bytes = frame.extended ? 5 : 3;
   const unsigned data_bytes = frame.remote ? 0u : (frame.length < 8u ? frame.length : 8u);
 
-  unsigned crc = 0;
-  const auto crc_add = [&](unsigned byte) {
-    crc = ((crc << 8) & 0x7FFFu) ^ kCrcTable[((crc >> 7) ^ byte) & 0xFFu];
-  };
-  for (int i = header_bytes - 1; i >= 0; --i) crc_add(static_cast<unsigned>(header >> (8 * i)) & 0xFFu);
-  for (unsigned i = 0; i < data_bytes; ++i) crc_add(frame.data[i]);
-
-  unsigned state = 0;
-  int stuffed = 0;
-  const auto stuff = [&](unsigned byte) {
-    const Step step = kStuffTable[state][byte & 0xFFu];
-    state = step.state;
-    stuffed += step.stuffed;
-  };
+  std::array<std::uint8_t, kMostBytes> bytes{};
+  for (int i = 0; i < header_bytes; ++i)
+    bytes[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(header >> (8 * (header_bytes - 1 - i)));
+  std::copy_n(frame.data.begin(), data_bytes, bytes.begin() + header_bytes);
   // The first byte holds the header's 3 (7 if extended) odd bits behind a padding that ends recessive.
-  const int odd = header_bits % 8;
-  const unsigned padding = frame.extended ? 0x80u : 0xA8u;
-  stuff(padding | static_cast<unsigned>(header >> (header_bits - odd)));
-  for (int i = header_bytes - 2; i >= 0; --i) stuff(static_cast<unsigned>(header >> (8 * i)));
-  for (unsigned i = 0; i < data_bytes; ++i) stuff(frame.data[i]);
+  const unsigned first = (frame.extended ? 0x80u : 0xA8u) | bytes[0];
+  constexpr std::size_t kUsual = 3 + 8;
+  const std::size_t count = static_cast<std::size_t>(header_bytes) + data_bytes;
+  Passed passed = count == kUsual ? pass(bytes.data(), first, std::make_index_sequence<kUsual - 1>{})
+                                  : pass(bytes.data(), count, first);
   // The CRC, and one bit to fill the byte: unlike the last, so that it completes no run.
-  stuff(crc >> 7);
-  stuff((crc << 1) | ((crc & 1u) ^ 1u));
+  passed.stuff(passed.crc >> 7);
+  passed.stuff((passed.crc << 1) | ((passed.crc & 1u) ^ 1u));
+  const int stuffed = static_cast<int>(passed.sum & 0xFFu);
   return header_bits + static_cast<int>(8 * data_bytes) + 15 + stuffed + 13;
 }
 
