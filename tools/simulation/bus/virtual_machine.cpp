@@ -14,7 +14,6 @@ namespace {
 constexpr BusTime kFinestCheck{1'000};
 // Far from any switch, or at rest, it is still looked at so often.
 constexpr BusTime kCoarsestCheck{50'000'000};
-constexpr BusTime kStalledCheck{1'000'000};
 constexpr int kMailboxes = 3;
 
 }  // namespace
@@ -131,10 +130,6 @@ void VirtualMachine::serve(VirtualNode& node, BusTime now) {
 
 void VirtualMachine::check_switches(VirtualNode& node, BusTime now) {
   BusTime next = now + kCoarsestCheck;
-  if (node.stalled) {
-    node.next_check = now + kStalledCheck;
-    return;
-  }
   for (int axis = 0; axis < 2; ++axis) {
     const VirtualAxis& a = node.options.axes[static_cast<std::size_t>(axis)];
     if (a.switch_input == 0) continue;
@@ -147,7 +142,7 @@ void VirtualMachine::check_switches(VirtualNode& node, BusTime now) {
       if (switch_hook_) switch_hook_(node.index, a.switch_input, edges);
       VirtualNode& wired = a.switch_node < 0 ? node : *nodes_[static_cast<std::size_t>(a.switch_node)];
       for (const Edge& edge : edges)
-        if (edge.at <= now && &wired == &node)
+        if (edge.at <= now && &wired == &node && !node.stalled)
           node.core->on_switch(node.to_local(now), a.switch_input - 1, edge.level);
         else
           wired.edges.push_back({edge.at, a.switch_input, edge.level});

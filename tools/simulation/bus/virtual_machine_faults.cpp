@@ -38,8 +38,13 @@ void VirtualMachine::set_stalled(int node, BusTime now, bool stalled) {
   VirtualNode& n = *nodes_[static_cast<std::size_t>(node)];
   if (!n.core || n.stalled == stalled) return;
   n.stalled = stalled;
-  // Its receive interrupts went on: the time stamps are right.
+  // Its interrupts went on, of frames as of switches: the time stamps are right.
   if (!stalled) {
+    const auto later = std::find_if(n.edges.begin(), n.edges.end(),
+                                    [now](const VirtualNode::RawEdge& edge) { return edge.at > now; });
+    for (auto edge = n.edges.begin(); edge != later; ++edge)
+      n.core->on_switch(n.to_local(edge->at), edge->input - 1, edge->level);
+    n.edges.erase(n.edges.begin(), later);
     for (Pending& p : n.pending) p.at = std::max(p.at, now);
     n.core->on_time(n.to_local(now));
   }
