@@ -50,7 +50,7 @@ void AutoTune::finish() {
   const float amperes = (high_a_ - low_a_) * (1.0F / kAverage);
   const float volts = (high_v_ - low_v_) * (1.0F / kAverage);
   state_ = State::kFailed;
-  if (amperes < 0.2F * current_a_ || amperes < 0.05F || rise_a_ < 0.1F) return;
+  if (amperes < 0.2F * current_a_ || amperes < 0.05F) return;
   result_.resistance_ohm = volts / amperes;
   result_.inductance_h = wave_v_ * kControlPeriodS * static_cast<float>(kWavePeriods) / rise_a_;
   const bool sane = result_.resistance_ohm > 0.02F && result_.resistance_ohm < 60 &&

@@ -78,7 +78,6 @@ void AxisControl::trip(std::uint16_t code) {
 // The first angle is the one where the rotor stands: by the encoder, or else where it was left.
 void AxisControl::begin() {
   on_ = true;
-  amplitude_a_ = 0;
   trim_ = 0;
   rest_periods_ = 0;
   loop_.reset();

@@ -10,14 +10,15 @@ std::uint16_t frame(int raw) {
   if ((std::popcount(word) & 1) != 0) word |= 0x8000;
   return word;
 }
-constexpr std::int64_t kTurn = 51'200 * (std::int64_t{1} << 32);
+constexpr std::int64_t kTurnOfCounts = 51'200 * (std::int64_t{1} << 32);
 
 TEST(Encoder, CountsTurnsBothWays) {
   Encoder encoder;
   for (int raw = 16'000; raw < 16'000 + 3 * 16'384; raw += 20) ASSERT_TRUE(encoder.on_frame(frame(raw)));
-  EXPECT_NEAR(static_cast<double>(encoder.position()) / static_cast<double>(kTurn), 3, 0.01);
+  EXPECT_NEAR(static_cast<double>(encoder.position()) / static_cast<double>(kTurnOfCounts), 3, 0.01);
   for (int raw = 16'000 + 3 * 16'384; raw > 0; raw -= 20) ASSERT_TRUE(encoder.on_frame(frame(raw)));
-  EXPECT_NEAR(static_cast<double>(encoder.position()) / static_cast<double>(kTurn), -16'000.0 / 16'384, 0.01);
+  EXPECT_NEAR(static_cast<double>(encoder.position()) / static_cast<double>(kTurnOfCounts),
+              -16'000.0 / 16'384, 0.01);
 }
 
 TEST(Encoder, WrongParityErrorFlagAndJumpsAreNoPosition) {

@@ -49,7 +49,9 @@ struct Bench {
   std::optional<double> measured_supply;  // by a divider that is broken
   double position = 0, velocity = 0;      // command: counts, counts/s
   AxisOutputs out;
+  double lost_share = 0;  // of the supply, to the dead time of a phase's half-bridges
   bool encoder_present = false;
+  bool encoder_mirrored = false;
   double encoder_zero = 0;         // rad
   double encoder_noise_steps = 0;  // rms
   std::mt19937 random{1};
@@ -64,7 +66,8 @@ struct Bench {
   }
   std::uint16_t encoder_frame() {
     if (!encoder_present) return 0xFFFF;
-    const double turns = (motor.theta + encoder_zero) / (2 * std::numbers::pi);
+    const double sense = encoder_mirrored ? -1 : 1;
+    const double turns = sense * (motor.theta + encoder_zero) / (2 * std::numbers::pi);
     const double noise = encoder_noise_steps * std::normal_distribution<>()(random);
     auto raw =
         static_cast<std::uint16_t>(static_cast<std::int64_t>(std::floor(turns * 16384 + noise)) & 0x3FFF);
@@ -83,10 +86,28 @@ struct Bench {
     in.encoder_frame = encoder_frame();
     const AxisOutputs next = control.step(in);
     const bool on = out.power;
-    motor.run(on ? out.duty.x * supply : 0, on ? out.duty.y * supply : 0, 50e-6);
+    const auto volts = [&](double duty, double amperes) {
+      const double lost = lost_share * supply * std::clamp(amperes / 0.02, -1.0, 1.0);
+      return on ? duty * supply - lost : 0;
+    };
+    motor.run(volts(out.duty.x, motor.ia), volts(out.duty.y, motor.ib), 50e-6);
     if (!on) motor.ia = motor.ib = 0;
     out = next;
     position += velocity * 50e-6;
+  }
+  /// The rotor is turned by hand to this place, counts.
+  void turn_to(double counts) {
+    motor.theta = counts / 512 * std::numbers::pi / TestMotor::kPolePairs;
+    motor.omega = 0;
+  }
+  /// The greatest distance from `from` on the way, counts.
+  double farthest(double from, double seconds) {
+    double most = 0;
+    for (int i = 0; i < static_cast<int>(std::lround(seconds * 20'000)); ++i) {
+      period();
+      most = std::max(most, std::abs(motor.counts() - from));
+    }
+    return most;
   }
   void run(double seconds) {
     for (int i = 0; i < static_cast<int>(std::lround(seconds * 20'000)); ++i) period();
