@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "protocol/canopen/alarm_codes.hpp"
-#include "vcan_tests/emulator/tests/octopus_bench.hpp"
+#include "vcan_tests/emulator/tests/octopus_drivers.hpp"
 
 namespace kinebus::emulator {
 namespace {
@@ -16,41 +14,12 @@ std::unique_ptr<Chip> board_without_driver_3(const ElfImage& image, const BoardO
   return board;
 }
 
-struct OctopusDrivers : testing::Test {
-  explicit OctopusDrivers(BoardMaker make = &make_board<OctopusBoard>) : octopus({}, make) {}
-  std::int64_t driver_object(int axis, std::uint8_t sub) {
-    return octopus.bench.read(id_of(axis), static_cast<std::uint16_t>(0x2170 + 0x800 * (axis % 2)), sub);
-  }
-  bool told(int axis, std::uint16_t code, std::size_t from = 0) {
-    const auto codes = octopus.bench.emergencies(id_of(axis), from);
-    return std::ranges::find(codes, code) != codes.end();
-  }
-  void start_moving(int axis) {
-    octopus.write(axis, 0x607F, 0, 4, 400'000);
-    octopus.enable(axis, 1);
-    octopus.move(axis, 4'000'000, 50'000, 800'000);
-    octopus.bench.run(200ms);
-    EXPECT_GT(octopus.board.driver(axis).steps(), 200);
-  }
-  bool faulty(int axis) { return (octopus.statusword(axis) & 0x4F) == 0x08; }
-  /// What takes the axis' power within 0.2 s, is told by `code`, and can be reset when it has gone.
+struct OctopusDrivers : OctopusDriverRig {
+  explicit OctopusDrivers(BoardMaker make = &make_board<OctopusBoard>) : OctopusDriverRig(make) {}
   template <typename Begin, typename End>
-  void expect_fault(std::uint16_t code, Begin begin, End end) {
-    start_moving(1);
-    const std::size_t from = octopus.bench.seen.size();
-    begin(octopus.board.tmc(1));
-    octopus.bench.run(500ms);
-    EXPECT_TRUE(faulty(1));
-    EXPECT_TRUE(told(1, code, from));
-    EXPECT_EQ(octopus.read(1, 0x603F), code);
-    EXPECT_FALSE(octopus.board.driver(1).enabled());
-    end(octopus.board.tmc(1));
-    octopus.bench.run(1500ms);
-    for (const int word : {0x80, 0x00}) octopus.write(1, 0x6040, 0, 2, word);
-    octopus.enable(1, 1);
-    EXPECT_TRUE(octopus.board.driver(1).enabled());
+  void expect_fault_of_1(std::uint16_t code, Begin begin, End end) {
+    expect_fault(1, octopus.board.tmc(1), code, begin, end);
   }
-  OneOctopus octopus;
 };
 
 TEST_F(OctopusDrivers, EachHasItsSettingsByItsWireBeforeItsNodeIsHeard) {
@@ -158,20 +127,20 @@ TEST_F(OctopusDrivers, ThePreWarningStopsAllOnThePathAndTooMuchHeatTakesThePower
 }
 
 TEST_F(OctopusDrivers, AShortIsAFault) {
-  expect_fault(
+  expect_fault_of_1(
       emcy::kShortToGround, [](Tmc2209& chip) { chip.short_to_ground(true); },
       [](Tmc2209& chip) { chip.short_to_ground(false); });
 }
 
 TEST_F(OctopusDrivers, AnOpenPhaseIsAFault) {
-  expect_fault(
+  expect_fault_of_1(
       emcy::kPhaseOpen, [](Tmc2209& chip) { chip.open_phase(true); },
       [](Tmc2209& chip) { chip.open_phase(false); });
 }
 
 // The motor supply dips: the settings are gone, and with them microsteps and current.
 TEST_F(OctopusDrivers, ADriverThatHasLostItsSettingsIsAFaultAndGetsThemAgain) {
-  expect_fault(
+  expect_fault_of_1(
       emcy::kDriverReset,
       [](Tmc2209& chip) {
         chip.set_supply(false);

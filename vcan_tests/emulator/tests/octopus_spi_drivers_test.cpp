@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "protocol/canopen/alarm_codes.hpp"
-#include "vcan_tests/emulator/tests/octopus_bench.hpp"
+#include "vcan_tests/emulator/tests/octopus_drivers.hpp"
 
 namespace kinebus::emulator {
 namespace {
@@ -39,46 +39,9 @@ std::unique_ptr<Chip> eight_tmc5160(const ElfImage& image, const BoardOptions& o
   return board;
 }
 
-struct OctopusSpiDrivers : testing::Test {
-  explicit OctopusSpiDrivers(BoardMaker make = &make_mixed_octopus) : octopus({}, make) {}
-  std::int64_t driver_object(int axis, std::uint8_t sub) {
-    return octopus.bench.read(id_of(axis), static_cast<std::uint16_t>(0x2170 + 0x800 * (axis % 2)), sub);
-  }
+struct OctopusSpiDrivers : OctopusDriverRig {
+  explicit OctopusSpiDrivers(BoardMaker make = &make_mixed_octopus) : OctopusDriverRig(make) {}
   TmcSpiChip& chip(int axis) { return octopus.board.spi_driver(axis); }
-  bool told(int axis, std::uint16_t code, std::size_t from = 0) {
-    const auto codes = octopus.bench.emergencies(id_of(axis), from);
-    return std::ranges::find(codes, code) != codes.end();
-  }
-  void start_moving(int axis) {
-    octopus.write(axis, 0x607F, 0, 4, 400'000);
-    octopus.enable(axis, 1);
-    octopus.move(axis, 4'000'000, 50'000, 800'000);
-    octopus.bench.run(200ms);
-    EXPECT_GT(octopus.board.driver(axis).steps(), 200);
-  }
-  bool faulty(int axis) { return (octopus.statusword(axis) & 0x4F) == 0x08; }
-  void disable(int axis) {
-    octopus.write(axis, 0x6040, 0, 2, 0);
-    octopus.bench.run(50ms);
-  }
-  /// What takes the axis' power within 0.5 s, is told by `code`, and can be reset when it has gone.
-  template <typename Begin, typename End>
-  void expect_fault(int axis, std::uint16_t code, Begin begin, End end) {
-    start_moving(axis);
-    const std::size_t from = octopus.bench.seen.size();
-    begin(chip(axis));
-    octopus.bench.run(500ms);
-    EXPECT_TRUE(faulty(axis)) << "axis " << axis;
-    EXPECT_TRUE(told(axis, code, from)) << "axis " << axis;
-    EXPECT_EQ(octopus.read(axis, 0x603F), code);
-    EXPECT_FALSE(octopus.board.driver(axis).enabled());
-    end(chip(axis));
-    octopus.bench.run(1500ms);
-    for (const int word : {0x80, 0x00}) octopus.write(axis, 0x6040, 0, 2, word);
-    octopus.enable(axis, 1);
-    EXPECT_TRUE(octopus.board.driver(axis).enabled());
-    disable(axis);
-  }
   void expect_good_spi() {
     for (const int axis : kBySpi) EXPECT_EQ(chip(axis).bad_datagrams(), 0u) << "axis " << axis;
     EXPECT_EQ(octopus.board.driver_spi().fights(), 0u);
@@ -86,7 +49,6 @@ struct OctopusSpiDrivers : testing::Test {
     EXPECT_TRUE(octopus.board.strange_accesses().empty());
     EXPECT_TRUE(octopus.board.lost_accesses().empty());
   }
-  OneOctopus octopus;
 };
 
 TEST_F(OctopusSpiDrivers, EachIsFoundAndHasItsSettingsBeforeItsNodeIsHeard) {
@@ -214,27 +176,29 @@ INSTANTIATE_TEST_SUITE_P(Chips, EachSpiDriver, testing::Values(1, 2));
 
 TEST_P(EachSpiDriver, AShortIsAFault) {
   expect_fault(
-      GetParam(), emcy::kShortToGround, [](TmcSpiChip& chip) { chip.short_to_ground(true); },
+      GetParam(), chip(GetParam()), emcy::kShortToGround,
+      [](TmcSpiChip& chip) { chip.short_to_ground(true); },
       [](TmcSpiChip& chip) { chip.short_to_ground(false); });
   expect_good_spi();
 }
 
 TEST_P(EachSpiDriver, AnOpenPhaseIsAFault) {
   expect_fault(
-      GetParam(), emcy::kPhaseOpen, [](TmcSpiChip& chip) { chip.open_phase(true); },
+      GetParam(), chip(GetParam()), emcy::kPhaseOpen, [](TmcSpiChip& chip) { chip.open_phase(true); },
       [](TmcSpiChip& chip) { chip.open_phase(false); });
 }
 
 TEST_P(EachSpiDriver, ALowChargePumpIsAFault) {
   expect_fault(
-      GetParam(), emcy::kUnderVoltage, [](TmcSpiChip& chip) { chip.set_charge_pump_low(true); },
+      GetParam(), chip(GetParam()), emcy::kUnderVoltage,
+      [](TmcSpiChip& chip) { chip.set_charge_pump_low(true); },
       [](TmcSpiChip& chip) { chip.set_charge_pump_low(false); });
 }
 
 // The motor supply dips: the settings are gone, and with them microsteps and current.
 TEST_P(EachSpiDriver, ThatHasLostItsSettingsIsAFaultAndGetsThemAgain) {
   expect_fault(
-      GetParam(), emcy::kDriverReset,
+      GetParam(), chip(GetParam()), emcy::kDriverReset,
       [](TmcSpiChip& chip) {
         chip.set_supply(false);
         chip.set_supply(true);
@@ -246,7 +210,7 @@ TEST_P(EachSpiDriver, ThatHasLostItsSettingsIsAFaultAndGetsThemAgain) {
 
 TEST_F(OctopusSpiDrivers, AShortToTheSupplyIsAFault) {
   expect_fault(
-      1, emcy::kShortToSupply, [](TmcSpiChip& chip) { chip.short_to_supply(true); },
+      1, chip(1), emcy::kShortToSupply, [](TmcSpiChip& chip) { chip.short_to_supply(true); },
       [](TmcSpiChip& chip) { chip.short_to_supply(false); });
 }
 
@@ -327,29 +291,16 @@ TEST_F(OctopusWithEightBySpi, AreAskedInTimeAtTheMostStepsAndAFullBus) {
     octopus.enable(axis, 1);
   }
   for (int axis = 0; axis < 6; ++axis) octopus.move(axis, 1'600'000, 3'200'000, 32'000'000);
-  std::uint32_t strangers = 0;
-  const auto fill_bus = [&] {
-    octopus.bench.send(CanFrame::make(0x0C1 + strangers++ % 8, {0, 0, 0, 0, 0, 0, 0, 0}));
-  };
-  octopus.bench.run(50ms, 200us, fill_bus);
-  octopus.board.cpu().clear_costs();
-  const Cycle began = octopus.board.now(), idle = octopus.board.cpu().idle();
-  octopus.bench.run(200ms, 200us, fill_bus);
-  const ExceptionCost control = octopus.board.cpu().cost(kControl);
-  const double average = static_cast<double>(control.cycles) / static_cast<double>(control.calls);
-  const double awake = 1 - static_cast<double>(octopus.board.cpu().idle() - idle) /
-                               static_cast<double>(octopus.board.now() - began);
-  const double longest_pass_ms = seconds_of(octopus.board.cpu().longest_pass()) * 1e3;
+  auto strangers = strangers_on(octopus);
+  const OctopusLoad load = load_of(octopus, strangers);
   chip(5).set_temperature(125);
-  octopus.bench.run(200ms, 200us, fill_bus);
+  octopus.bench.run(200ms, 200us, strangers);
   EXPECT_TRUE(told(5, emcy::kDriveTemperature)) << "six datagrams for each of eight, one in each pass";
   fmt::print(
       "eight drivers by SPI: control interrupt {:.1f} %, processor awake {:.0f} %, main loop {:.1f} ms at "
       "most\n",
-      100 * average / kControlPeriod, 100 * awake, longest_pass_ms);
-  EXPECT_LE(average, 0.6 * kControlPeriod);
-  EXPECT_LE(control.worst_cycles, 0.6 * kControlPeriod);
-  EXPECT_LT(longest_pass_ms, 4) << "half of a plan";
+      100 * load.control, 100 * load.awake, load.longest_pass_ms);
+  expect_within_budget(load);
   for (int axis = 0; axis < 8; ++axis) EXPECT_EQ(chip(axis).bad_datagrams(), 0u) << "axis " << axis;
   octopus.expect_good_drivers();
 }
