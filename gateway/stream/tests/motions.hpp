@@ -38,4 +38,7 @@ struct SmoothCurve {
 /// A curve of sine waves, as cubic pieces with common tangents.
 std::vector<Phase> smooth_curve(std::uint32_t seed, const SmoothCurve& shape);
 
+/// One joint along a straight axis: accelerate, cruise, decelerate.
+std::vector<JointSpan> trapezoid_spans(double accel, double speed, double cruise_s);
+
 }  // namespace kinebus::testing

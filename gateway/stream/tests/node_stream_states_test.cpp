@@ -4,38 +4,16 @@
 
 #include <random>
 
-#include "gateway/stream/node_stream.hpp"
+#include "gateway/stream/tests/record_runs.hpp"
 
 namespace kinebus::testing_states {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-
-PathTime path(std::int64_t units) {
-  return PathTime{units * kPathTicksPerUnit};
-}
-
-/// Segments of `units` each, that accelerate and brake in turn; without an end.
-void push_segments(NodeStream& stream, int count, std::int32_t units, std::int64_t from_units = 0) {
-  FittedSegment s;
-  s.start = stream.final_state();
-  s.start_units = from_units;
-  s.duration = units;
-  for (int k = 0; k < count; ++k) {
-    s.acceleration = k % 2 == 0 ? std::array{200, -300} : std::array{-200, 300};
-    s.line = static_cast<std::uint32_t>(k + 1);
-    stream.push(s);
-    for (std::size_t i = 0; i < kAxesPerNode; ++i)
-      s.start[i] = advance(s.start[i], s.acceleration[i], units, kDefaultAccelerationShift);
-    s.start_units += units;
-  }
-}
-void push_run(NodeStream& stream, int count, std::int32_t units) {
-  stream.push_start();
-  push_segments(stream, count, units);
-  stream.push_end();
-}
+using testing::path_units;
+using testing::push_run;
+using testing::push_segments;
 
 struct Sent {
   std::vector<Segment> records;
@@ -63,8 +41,8 @@ TEST(NodeStream, AResetForgetsTheRunThatWasUnderWay) {
   stream.push_start();
   push_segments(stream, 3, 100);
   stream.release(1000);
-  ASSERT_TRUE(stream.next_frame({}, path(0)));
-  ASSERT_EQ(stream.next_frame({}, path(0))->id, 0x501u) << "one of two checkpoints";
+  ASSERT_TRUE(stream.next_frame({}, path_units(0)));
+  ASSERT_EQ(stream.next_frame({}, path_units(0))->id, 0x501u) << "one of two checkpoints";
   push_segments(stream, 1, 100, 300);
   NodeStream opened(1);
   opened.reset({}, 0, 120);
@@ -76,11 +54,11 @@ TEST(NodeStream, AResetForgetsTheRunThatWasUnderWay) {
     EXPECT_EQ(s->unsent(), 0u);
     EXPECT_EQ(s->final_state()[0], (AxisState{to_fixed(12), 0}));
     EXPECT_EQ(s->final_state()[1], (AxisState{to_fixed(-3), 0}));
-    EXPECT_EQ(*s->state_at(path(123)), s->final_state()) << "no records: it stands there";
-    EXPECT_FALSE(s->next_frame({}, path(0)));
+    EXPECT_EQ(*s->state_at(path_units(123)), s->final_state()) << "no records: it stands there";
+    EXPECT_FALSE(s->next_frame({}, path_units(0)));
     push_run(*s, 2, 50);
     s->release(10);
-    const Sent sent = send_all(*s, path(0));
+    const Sent sent = send_all(*s, path_units(0));
     ASSERT_EQ(sent.records.size(), 4u);
     EXPECT_EQ(sent.records[0].sequence, 77);
     EXPECT_EQ(sent.records[0].start_units, 10);
@@ -95,7 +73,7 @@ TEST(NodeStream, CheckpointsComeEvery64RecordsOfOneAxisInTurn) {
   stream.reset({}, 0, 255);
   push_run(stream, 230, 20);
   stream.release(0);
-  const Sent sent = send_all(stream, path(0));
+  const Sent sent = send_all(stream, path_units(0));
   std::vector<std::pair<int, int>> expected{{1, 0}, {1, 1}, {65, 0}, {129 % 128, 1}, {193 % 128, 0}};
   ASSERT_EQ(sent.checkpoints.size(), expected.size());
   for (std::size_t k = 0; k < expected.size(); ++k) {
@@ -112,15 +90,15 @@ TEST(NodeStream, ASecondRunWaitsForItsReleaseAndChangesNothingOfTheFirst) {
   stream.reset({}, 0, 120);
   push_run(stream, 4, 100);
   stream.release(1000);
-  EXPECT_EQ(send_all(stream, path(0)).records.size(), 6u);
+  EXPECT_EQ(send_all(stream, path_units(0)).records.size(), 6u);
   const auto end = stream.final_state();
   stream.push_start();
   push_segments(stream, 2, 100);
-  EXPECT_TRUE(send_all(stream, path(0)).records.empty());
+  EXPECT_TRUE(send_all(stream, path_units(0)).records.empty());
   // A status while it is open; the times of its records are none yet.
-  ASSERT_TRUE(stream.on_status({}, status(6, 120, 1250), path(1250)));
-  EXPECT_EQ(*stream.state_at(path(5000)), end);
-  EXPECT_EQ(stream.line_at(path(1250)), 3u);
+  ASSERT_TRUE(stream.on_status({}, status(6, 120, 1250), path_units(1250)));
+  EXPECT_EQ(*stream.state_at(path_units(5000)), end);
+  EXPECT_EQ(stream.line_at(path_units(1250)), 3u);
   stream.release(9000);
   push_segments(stream, 2, 100, 200);
   stream.push_end();
@@ -129,24 +107,24 @@ TEST(NodeStream, ASecondRunWaitsForItsReleaseAndChangesNothingOfTheFirst) {
   EXPECT_EQ(stream.unsent_begins_units(2), 9100);
   EXPECT_EQ(stream.unsent_begins_units(4), 9300) << "pushed behind the release";
   EXPECT_EQ(stream.unsent_begins_units(100), 9400);
-  const Sent sent = send_all(stream, path(0));
+  const Sent sent = send_all(stream, path_units(0));
   ASSERT_EQ(sent.records.size(), 6u);
   EXPECT_EQ(sent.records[0].start_units, 9000);
-  EXPECT_EQ(*stream.state_at(path(8000)), end);
-  EXPECT_EQ(stream.line_at(path(9301)), 2u);
+  EXPECT_EQ(*stream.state_at(path_units(8000)), end);
+  EXPECT_EQ(stream.line_at(path_units(9301)), 2u);
 }
 
 TEST(NodeStream, SilenceCountsFromTheFirstRecordThatIsNotTaken) {
   NodeStream stream(1);
   stream.reset({}, 0, 120);
-  EXPECT_TRUE(stream.on_status(seconds{9}, status(0, 120), path(0))) << "nothing was sent";
+  EXPECT_TRUE(stream.on_status(seconds{9}, status(0, 120), path_units(0))) << "nothing was sent";
   push_run(stream, 20, 1000);
   stream.release(0);
   // One every 50 ms, from 10 s on; nothing is taken.
   std::optional<BusTime> silent;
   for (BusTime now = seconds{10}; now < seconds{11} && !silent; now += milliseconds{50}) {
-    (void)stream.next_frame(now, path(0));
-    if (const auto ok = stream.on_status(now, status(0, 120), path(0)); !ok) {
+    (void)stream.next_frame(now, path_units(0));
+    if (const auto ok = stream.on_status(now, status(0, 120), path_units(0)); !ok) {
       EXPECT_EQ(ok.error().kind, StreamError::Kind::kSilent);
       EXPECT_EQ(ok.error().amount, 400);
       EXPECT_EQ(ok.error().node_id, 1);
@@ -155,9 +133,9 @@ TEST(NodeStream, SilenceCountsFromTheFirstRecordThatIsNotTaken) {
   }
   EXPECT_EQ(silent, BusTime{milliseconds{10'400}});
   // Some are taken: from then on anew.
-  ASSERT_TRUE(stream.on_status(milliseconds{10'410}, status(2, 118), path(0)));
-  EXPECT_TRUE(stream.on_status(milliseconds{10'760}, status(2, 118), path(0)));
-  EXPECT_FALSE(stream.on_status(milliseconds{10'761}, status(2, 118), path(0)));
+  ASSERT_TRUE(stream.on_status(milliseconds{10'410}, status(2, 118), path_units(0)));
+  EXPECT_TRUE(stream.on_status(milliseconds{10'760}, status(2, 118), path_units(0)));
+  EXPECT_FALSE(stream.on_status(milliseconds{10'761}, status(2, 118), path_units(0)));
 }
 
 TEST(NodeStream, SaysWhichRecordAndWhichLine) {
@@ -165,12 +143,12 @@ TEST(NodeStream, SaysWhichRecordAndWhichLine) {
   stream.reset({}, 0, 120);
   push_run(stream, 10, 100);
   stream.release(0);
-  (void)send_all(stream, path(0));
+  (void)send_all(stream, path_units(0));
   for (const auto flag :
        {StreamStatus::kSequenceError, StreamStatus::kCheckpointError, StreamStatus::kUnderrun}) {
     StreamStatus s = status(5, 115, 320);
     s.flags = flag;
-    const auto wrong = stream.on_status({}, s, path(320));
+    const auto wrong = stream.on_status({}, s, path_units(320));
     ASSERT_FALSE(wrong);
     EXPECT_EQ(wrong.error().line, 4u);
     EXPECT_EQ(wrong.error().node_id, 4);
@@ -178,7 +156,7 @@ TEST(NodeStream, SaysWhichRecordAndWhichLine) {
     ASSERT_TRUE(stream.last_status());
     EXPECT_EQ(stream.last_status()->flags, flag);
   }
-  const auto unknown = stream.on_status({}, status(20, 100), path(320));
+  const auto unknown = stream.on_status({}, status(20, 100), path_units(320));
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().amount, 20);
   EXPECT_EQ(stream.counters().statuses, 4u);
@@ -190,18 +168,20 @@ TEST(NodeStream, AStatusIsOldUpToSevenRecordsBack) {
     stream.reset({}, 0, 120);
     push_run(stream, 40, 10);
     stream.release(0);
-    (void)send_all(stream, path(0));
-    ASSERT_TRUE(stream.on_status({}, status(30, 90), path(0)));
+    (void)send_all(stream, path_units(0));
+    ASSERT_TRUE(stream.on_status({}, status(30, 90), path_units(0)));
     // Farther back it would be one ahead that takes more than a queue holds, of records that nobody sent.
-    EXPECT_EQ(stream.on_status({}, status(30 - static_cast<std::uint64_t>(behind), 90), path(0)).has_value(),
-              behind <= NodeStream::kMaxOvertaken)
+    EXPECT_EQ(
+        stream.on_status({}, status(30 - static_cast<std::uint64_t>(behind), 90), path_units(0)).has_value(),
+        behind <= NodeStream::kMaxOvertaken)
         << behind;
   }
   // Nothing lies before the first record.
   NodeStream fresh(1);
   fresh.reset({}, 2, 120);
-  EXPECT_TRUE(fresh.on_status({}, status(0, 120), path(0))) << "2 behind";
-  EXPECT_EQ(fresh.on_status({}, status(127, 120), path(0)).error().kind, StreamError::Kind::kUnknownRecord);
+  EXPECT_TRUE(fresh.on_status({}, status(0, 120), path_units(0))) << "2 behind";
+  EXPECT_EQ(fresh.on_status({}, status(127, 120), path_units(0)).error().kind,
+            StreamError::Kind::kUnknownRecord);
 }
 
 TEST(NodeStream, KeepsWhatANodeThatIsBehindHasNotPassed) {
@@ -210,20 +190,20 @@ TEST(NodeStream, KeepsWhatANodeThatIsBehindHasNotPassed) {
     stream.reset({}, 0, 120);
     push_run(stream, 40, 100);
     stream.release(start);
-    (void)send_all(stream, path(start));
+    (void)send_all(stream, path_units(start));
     ASSERT_TRUE(stream.all_sent());
-    ASSERT_TRUE(stream.on_status({}, status(20, 100, start + 1000), path(start + 2000)));
-    EXPECT_TRUE(stream.state_at(path(start + 1001)));
-    EXPECT_FALSE(stream.state_at(path(start + 899)));
-    EXPECT_EQ(stream.accepted_state(), *stream.state_at(path(start + 1900)));
+    ASSERT_TRUE(stream.on_status({}, status(20, 100, start + 1000), path_units(start + 2000)));
+    EXPECT_TRUE(stream.state_at(path_units(start + 1001)));
+    EXPECT_FALSE(stream.state_at(path_units(start + 899)));
+    EXPECT_EQ(stream.accepted_state(), *stream.state_at(path_units(start + 1900)));
     // And so where the node is ahead, by its clock.
-    ASSERT_TRUE(stream.on_status({}, status(30, 100, start + 2500), path(start + 2000)));
-    EXPECT_TRUE(stream.state_at(path(start + 2001)));
-    EXPECT_FALSE(stream.state_at(path(start + 1800)));
+    ASSERT_TRUE(stream.on_status({}, status(30, 100, start + 2500), path_units(start + 2000)));
+    EXPECT_TRUE(stream.state_at(path_units(start + 2001)));
+    EXPECT_FALSE(stream.state_at(path_units(start + 1800)));
     EXPECT_EQ(stream.accepted_until_units(), start + 2900);
     // No more than was accepted.
-    ASSERT_TRUE(stream.on_status({}, status(30, 100, start + 3900), path(start + 3900)));
-    EXPECT_TRUE(stream.state_at(path(start + 2900)));
+    ASSERT_TRUE(stream.on_status({}, status(30, 100, start + 3900), path_units(start + 3900)));
+    EXPECT_TRUE(stream.state_at(path_units(start + 2900)));
   }
 }
 
@@ -241,7 +221,7 @@ TEST(NodeStream, CountsWhatIsNotSentUntilAnyTime) {
     }
     stream.push_end();
     stream.release(500);
-    (void)send_all(stream, path(400));
+    (void)send_all(stream, path_units(400));
     for (int look = 0; look < 100; ++look) {
       const std::int64_t until = static_cast<std::int64_t>(random() % 50'000);
       std::uint64_t expected = 0;

@@ -5,32 +5,12 @@
 #include <random>
 
 #include "gateway/stream/tests/model_node.hpp"
+#include "gateway/stream/tests/record_runs.hpp"
 
 namespace kinebus::testing {
 namespace {
 
 using std::chrono::milliseconds;
-
-/// A run of `count` segments of `units` each, that accelerate and brake in turn.
-void push_run(NodeStream& stream, int count, std::int32_t units) {
-  stream.push_start();
-  FittedSegment s;
-  s.start = stream.final_state();
-  s.duration = units;
-  for (int k = 0; k < count; ++k) {
-    s.acceleration = k % 2 == 0 ? std::array{200, -300} : std::array{-200, 300};
-    s.line = static_cast<std::uint32_t>(k + 1);
-    stream.push(s);
-    for (std::size_t i = 0; i < kAxesPerNode; ++i)
-      s.start[i] = advance(s.start[i], s.acceleration[i], units, kDefaultAccelerationShift);
-    s.start_units += units;
-  }
-  stream.push_end();
-}
-
-PathTime path_units(std::int64_t n) {
-  return PathTime{n * kPathTicksPerUnit};
-}
 
 StreamStatus status(std::uint8_t next, std::uint8_t free_records) {
   return {.next_sequence = next, .free_records = free_records};

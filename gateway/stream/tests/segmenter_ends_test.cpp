@@ -56,24 +56,6 @@ Followed follow(Segmenter& segmenter, const std::vector<JointSpan>& spans, AxisS
   return f;
 }
 
-/// Accelerates, cruises, brakes.
-std::vector<JointSpan> move(double accel, double speed, double cruise_s) {
-  const double ramp = speed / accel;
-  std::vector<JointSpan> spans(3);
-  spans[0].duration_s = spans[2].duration_s = ramp;
-  spans[1].duration_s = cruise_s;
-  spans[1].start_s = ramp;
-  spans[2].start_s = ramp + cruise_s;
-  double q = 600;
-  spans[0].coefficients[0] = {q, 0, accel / 2, 0};
-  q = spans[0].position(0, ramp);
-  spans[1].coefficients[0] = {q, speed, 0, 0};
-  q = spans[1].position(0, cruise_s);
-  spans[2].coefficients[0] = {q, speed, -accel / 2, 0};
-  spans[2].last = true;
-  return spans;
-}
-
 AxisState standing(const NodeAxes& node, const JointSpan& span, double off = 0) {
   return {to_fixed(node.axes[0].to_counts(span.position(0, 0)) + off), 0};
 }
@@ -81,7 +63,7 @@ AxisState standing(const NodeAxes& node, const JointSpan& span, double off = 0) 
 TEST(Segmenter, AnOffsetAtTheStartIsTakenBackAndIsNoLooseFit) {
   for (const double off : {-3.5, -0.7, 0.0, 0.3, 2.5, 4.0}) {
     Segmenter segmenter(one_axis());
-    const auto spans = move(3000, 100, 0.2);
+    const auto spans = trapezoid_spans(3000, 100, 0.2);
     const Followed f = follow(segmenter, spans, standing(segmenter.node(), spans[0], off));
     EXPECT_NEAR(segmenter.start_offset_counts(), std::abs(off), 1e-6);
     EXPECT_LE(f.worst, std::max(0.5, 1.11 * std::abs(off)));
@@ -94,7 +76,7 @@ TEST(Segmenter, AnOffsetAtTheStartIsTakenBackAndIsNoLooseFit) {
 }
 
 TEST(Segmenter, ARunThatWasLeftInItsMidstLeavesNothingToTheNext) {
-  const auto spans = move(3000, 100, 0.4);
+  const auto spans = trapezoid_spans(3000, 100, 0.4);
   const auto curve = sample(*m1(), smooth_curve(2, {.seconds = 3, .tilt_rad = 0.3, .turn_rad = 0.5}));
   for (int given = 0; given < 60; given += 7) {
     Segmenter used(one_axis()), fresh(one_axis());
@@ -125,7 +107,7 @@ TEST(Segmenter, AnAxisWithoutALimitIsStreamedLikeAnyOther) {
 TEST(Segmenter, AMotionOverTheLimitIsFollowedAllTheSame) {
   NodeAxes node = one_axis();
   node.axes[0].acceleration_limit = 2000;
-  const auto spans = move(3000, 100, 0.2);
+  const auto spans = trapezoid_spans(3000, 100, 0.2);
   Segmenter segmenter(node);
   EXPECT_LE(follow(segmenter, spans, standing(node, spans[0])).worst, 0.5);
   EXPECT_EQ(segmenter.counters().loose, 0u);
@@ -134,7 +116,7 @@ TEST(Segmenter, AMotionOverTheLimitIsFollowedAllTheSame) {
 /// More of them than there is room for in the look-ahead.
 TEST(Segmenter, SpansOfATenthOfAMillisecondGoThrough) {
   std::vector<JointSpan> spans;
-  const auto whole = move(3000, 100, 0.2);
+  const auto whole = trapezoid_spans(3000, 100, 0.2);
   for (const JointSpan& s : whole) {
     const int parts = static_cast<int>(std::lround(s.duration_s / 1e-4));
     for (int k = 0; k < parts; ++k) {

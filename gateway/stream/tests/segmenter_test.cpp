@@ -222,24 +222,6 @@ TEST(Segmenter, NearTheLimitAccelerationsHardlyLeaveThoseOfTheMotion) {
   }
 }
 
-/// One joint along a straight axis: accelerate, cruise, decelerate.
-std::vector<JointSpan> trapezoid_spans(double accel, double speed, double cruise_s) {
-  const double ramp = speed / accel;
-  std::vector<JointSpan> spans(3);
-  spans[0].duration_s = spans[2].duration_s = ramp;
-  spans[1].duration_s = cruise_s;
-  spans[1].start_s = ramp;
-  spans[2].start_s = ramp + cruise_s;
-  double q = 600;
-  spans[0].coefficients[0] = {q, 0, accel / 2, 0};
-  q = spans[0].position(0, ramp);
-  spans[1].coefficients[0] = {q, speed, 0, 0};
-  q = spans[1].position(0, cruise_s);
-  spans[2].coefficients[0] = {q, speed, -accel / 2, 0};
-  spans[2].last = true;
-  return spans;
-}
-
 TEST(Segmenter, AStraightTrapezoidTakesThreeSegmentsAndOneToSettle) {
   NodeAxes node;
   node.axes[0].joint = 0;

@@ -64,11 +64,12 @@ OctopusLoad load_of(OneOctopus& octopus, Beside beside) {
   const Cycle began = octopus.board.now(), idle = octopus.board.cpu().idle();
   octopus.bench.run(200ms, 200us, beside);
   const ExceptionCost control = octopus.board.cpu().cost(kControl);
-  return {.control = static_cast<double>(control.cycles) / static_cast<double>(control.calls) / kControlPeriod,
-          .worst_control = static_cast<double>(control.worst_cycles) / kControlPeriod,
-          .awake = 1 - static_cast<double>(octopus.board.cpu().idle() - idle) /
-                           static_cast<double>(octopus.board.now() - began),
-          .longest_pass_ms = seconds_of(octopus.board.cpu().longest_pass()) * 1e3};
+  return {
+      .control = static_cast<double>(control.cycles) / static_cast<double>(control.calls) / kControlPeriod,
+      .worst_control = static_cast<double>(control.worst_cycles) / kControlPeriod,
+      .awake = 1 - static_cast<double>(octopus.board.cpu().idle() - idle) /
+                       static_cast<double>(octopus.board.now() - began),
+      .longest_pass_ms = seconds_of(octopus.board.cpu().longest_pass()) * 1e3};
 }
 /// Eight devices that nobody knows fill the bus by turns.
 inline auto strangers_on(OneOctopus& octopus) {
