@@ -8,12 +8,15 @@ namespace {
 constexpr VirtualClocks kClocks{.drift_ppm = 25,
                                 .latency_max = std::chrono::microseconds{20},
                                 .offset_max = std::chrono::milliseconds{900}};
+// Carriages that stand beside their switches would wake the process some thousand times a second.
+constexpr BusTime kBetweenLooks = std::chrono::milliseconds{2};
 }  // namespace
 
 InprocBus::InprocBus(const MachineDescription& machine, LocalTime now, std::uint64_t seed)
     : start_(now), machine_(virtual_machine_of(machine, kClocks, seed)) {}
 
 void InprocBus::advance(LocalTime now) {
+  looked_ = now - start_;
   for (bool done = false; !done;) {
     done = machine_->advance(now - start_);
     while (const auto got = machine_->receive())
@@ -24,7 +27,7 @@ void InprocBus::advance(LocalTime now) {
 
 LocalTime InprocBus::next_deadline() const {
   if (!received_.empty()) return LocalTime{0};
-  const BusTime next = machine_->next_event();
+  const BusTime next = machine_->next_event(looked_ + kBetweenLooks);
   return next == BusTime::max() ? LocalTime::max() : start_ + next;
 }
 

@@ -25,7 +25,8 @@ class InprocBus : public BusPort {
  private:
   void advance(LocalTime now);
 
-  LocalTime start_;  // the bus's own time begins here
+  LocalTime start_;    // the bus's own time begins here
+  BusTime looked_{0};  // when the machine was last advanced
   std::unique_ptr<VirtualMachine> machine_;
   std::deque<Received> received_;
 };

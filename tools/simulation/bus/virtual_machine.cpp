@@ -47,6 +47,13 @@ BusTime VirtualMachine::next_event() const {
   return std::min(next_besides_probe(), next_probe_check_);
 }
 
+BusTime VirtualMachine::next_event(BusTime looks) const {
+  BusTime next = std::min(bus_.next_event(), std::max(next_event(), looks));
+  for (const auto& node : nodes_) next = std::min(next, node->next_besides_checks());
+  if (!gateway_pending_.empty()) next = std::min(next, gateway_pending_.front().at);
+  return next;
+}
+
 BusTime VirtualMachine::next_besides_probe() const {
   BusTime next = bus_.next_event();
   for (const auto& node : nodes_) next = std::min(next, node->next_due());

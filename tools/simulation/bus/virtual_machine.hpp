@@ -92,6 +92,9 @@ class VirtualMachine final : public NodeMachine {
 
   /// When advance() has something to do next.
   BusTime next_event() const override;
+  /// The same, but that the machine's own looks at its switches and its probe need not be before `looks`:
+  /// whoever comes later finds them made in their time.
+  BusTime next_event(BusTime looks) const;
   /// Does everything that falls due up to `now`, in order. Stops early, right after a delivery to the
   /// gateway, so that the gateway can react in time: call again until it returns true.
   bool advance(BusTime now) override;

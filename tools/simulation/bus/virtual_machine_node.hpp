@@ -96,12 +96,15 @@ struct VirtualMachine::VirtualNode {
     return to_true(of.next_deadline());
   }
   BusTime next_due() const {
+    return std::min(next_besides_checks(), options.heat ? BusTime::max() : next_check);
+  }
+  BusTime next_besides_checks() const {
     if (options.heat)
       return !heat ? BusTime::max()
                    : std::min({deadline, to_true(next_sample),
                                pending.empty() ? BusTime::max() : pending.front().at});
-    if (!core || stalled) return next_check;
-    return std::min({deadline, next_check, pending.empty() ? BusTime::max() : pending.front().at,
+    if (!core || stalled) return BusTime::max();
+    return std::min({deadline, pending.empty() ? BusTime::max() : pending.front().at,
                      edges.empty() ? BusTime::max() : edges.front().at});
   }
 
