@@ -54,6 +54,30 @@ TEST(NodeObjects, WhatAPortMeasuresIsShownOfItsAxis) {
   }
 }
 
+TEST(NodeObjects, WhoFollowsBadlySaysSoInTheModesThatHaveABitForIt) {
+  for (const int axis : {0, 1})
+    for (const int mode : {1, 3, 6, 8}) {
+      Lone lone;
+      EXPECT_EQ(lone.write(of_axis(0x6060, axis), 0, 1, mode), 0u);
+      lone.power(axis);
+      lone.control(0x0F, axis);
+      const auto bit = [&](std::int32_t error, std::int64_t window) {
+        EXPECT_EQ(lone.write(of_axis(0x6065, axis), 0, 4, window), 0u);
+        lone.node.set_feedback(axis, {.following_error = error});
+        return (lone.read(of_axis(0x6041, axis), 0) & 0x2000) != 0;
+      };
+      const bool quiet = bit(0, 100), has = mode == 1 || mode == 8;
+      if (has) {
+        EXPECT_FALSE(quiet) << mode;
+      }
+      EXPECT_EQ(bit(101, 100), has || quiet) << mode;
+      EXPECT_EQ(bit(-101, 100), has || quiet) << mode;
+      EXPECT_EQ(bit(100, 100), quiet) << mode;
+      EXPECT_EQ(bit(-100, 100), quiet) << mode;
+      EXPECT_EQ(bit(-5'000'000, 0xFFFF'FFFF), quiet) << "nobody watches";
+    }
+}
+
 TEST(NodeObjects, WhatADriverSaysIsShownOfItsAxis) {
   Lone lone;
   lone.node.set_driver(0, {.state = 2, .status = 0x8010'0203, .stall_guard = 511, .found = 5160});

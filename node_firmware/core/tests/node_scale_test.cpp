@@ -1,6 +1,6 @@
 // Linear scales on the carriages (2160h): counted beside the axis, and what they said at the home switch.
 
-#include "node_firmware/core/tests/node_bench.hpp"
+#include "node_firmware/core/tests/lone_bench.hpp"
 #include "protocol/canopen/alarm_codes.hpp"
 
 namespace kinebus::testing_bench {
@@ -127,6 +127,40 @@ TEST(NodeScale, SilentWhileItLeadsTheAxisItStopsWhatMoves) {
   bench.run(100ms);
   EXPECT_TRUE(bench.node(0).path().stop_latched());
   EXPECT_EQ(get_u16_le(bench.last(0x083)->data), emcy::kIncrementalEncoder);
+}
+
+TEST(NodeScale, SilentItStopsNobodyWhoDoesNotMoveOrIsNotLedByIt) {
+  for (const bool led : {false, true}) {
+    SCOPED_TRACE(led);
+    Bench bench(one_scale());
+    close_loop(bench, led ? kCountsAMm / 2 : 0);
+    if (!led) go_to(bench, 150 * kCountsAMm, 0s);
+    bench.run(300ms);
+    bench.plant_on = false;
+    bench.node(0).lose_scale(0);
+    bench.send("603#4060210400000000");
+    bench.run(5ms);
+    EXPECT_EQ(text_of(*bench.last(0x583)), "583#8060210424000008") << "it counts nothing";
+    bench.run(100ms);
+    EXPECT_EQ(bench.read(kScaleNode, 0x2120, static_cast<std::uint8_t>(NodeCounter::kDriveFaults)), 0);
+    EXPECT_FALSE(bench.node(0).path().stop_latched());
+  }
+}
+
+TEST(NodeScale, OnPinsThatTheMotorsEncoderHasItIsOneOrTheOther) {
+  for (const auto input : {ScaleInput::kQuadratureOrEncoder, ScaleInput::kAbsoluteOrEncoder}) {
+    const bool quadrature = input == ScaleInput::kQuadratureOrEncoder;
+    Lone lone(
+        {.node_id = 1, .scale_inputs = {ScaleInput::kNone, input}, .may_fit_scale = &Node::may_fit_scale});
+    EXPECT_EQ(lone.write(kScaleB, 1, 1, quadrature ? 24 : 1),
+              static_cast<std::uint32_t>(AbortCode::kHardware));
+    EXPECT_EQ(lone.write(0x2950, 6, 1, 1), 0u);
+    EXPECT_EQ(lone.write(kScaleB, 1, 1, quadrature ? 1 : 24),
+              static_cast<std::uint32_t>(AbortCode::kDeviceState));
+    EXPECT_EQ(lone.write(0x2950, 6, 1, 0), 0u);
+    EXPECT_EQ(lone.write(0x2150, 6, 1, 1), 0u) << "the other axis' encoder is none of its business";
+    EXPECT_EQ(lone.write(kScaleB, 1, 1, quadrature ? 1 : 24), 0u);
+  }
 }
 
 TEST(NodeScale, IsNoPartOfWhatIsStoredOrOfTheFingerprint) {
