@@ -40,9 +40,26 @@ constexpr double kBytesPerGib = 1073741824;
 /// Clients' part of the loop's time, of those near the machine and those of the network. With what was saved
 /// and with planning it is less than the 95 % of a second at which Linux stops a real-time thread until the
 /// second is over. A stop from nearby hardly waits for SYNC.
-constexpr StreamHub::Options kNear{
-    .share = 0.15, .burst = std::chrono::milliseconds{50}, .most_kept_clear = std::chrono::milliseconds{1}};
+constexpr StreamHub::Options kNear{.share = 0.15,
+                                   .burst = std::chrono::milliseconds{50},
+                                   .most_kept_clear = std::chrono::milliseconds{1},
+                                   .at_once = true};
 constexpr StreamHub::Options kFar{.share = 0.5, .burst = std::chrono::milliseconds{100}};
+/// Of the network's part: who has control may also ask for its 20 statuses a second. Of all others who may
+/// stop each has a little: a stop, a hold, a word now and then; who uploads, lists jobs, floods, or comes and
+/// goes is served with everybody else.
+constexpr StreamHub::Options kControl{
+    .share = 0.1,
+    .burst = std::chrono::milliseconds{20},
+    .at_once = true,
+    .frugal = {.share = 0.1, .burst = std::chrono::milliseconds{20}, .pause = std::chrono::seconds{1}}};
+constexpr StreamHub::Options kMayStop{.share = 0.1,
+                                      .burst = std::chrono::milliseconds{10},
+                                      .at_once = true,
+                                      .frugal = {.share = 0.02,
+                                                 .burst = std::chrono::milliseconds{20},
+                                                 .pause = std::chrono::seconds{5},
+                                                 .trial = std::chrono::seconds{5}}};
 
 template <typename T>
 T must(Result<T, std::string> result, const std::string& what = {}) {
@@ -262,6 +279,9 @@ void Service::listen_http(const std::string& credentials) {
 
 void Service::run(const volatile std::sig_atomic_t* quit, volatile std::sig_atomic_t* reread) {
   RecordedBus recorded(std::move(bus_), recorder_);
+  hub_.comes_after(near_);
+  hub_.add_lane(ByteSession::Rank::kInControl, kControl);
+  hub_.add_lane(ByteSession::Rank::kMayStop, kMayStop);
   for (StreamHub* const hub : {&near_, &hub_}) hub->keep_clear_of([this] { return gateway_.sync_due(); });
   worker_.pass(hub_.gate(worker_.fd()));
   const ServiceManager manager;

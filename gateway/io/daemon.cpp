@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "gateway/io/frame_exchange.hpp"
 #include "gateway/sessions/messages.hpp"
 #include "protocol/joblink/shown_text.hpp"
 
@@ -13,8 +14,6 @@ namespace {
 constexpr LocalTime kQuitWithin = std::chrono::seconds{2};
 // Half of the WatchdogSec in kinebusd.service.
 constexpr LocalTime kWatchdogPeriod = std::chrono::seconds{1};
-// Frames taken in one turn, so that a flooded bus cannot keep the loop from its deadlines.
-constexpr int kFramesPerTurn = 256;
 
 // A check of a job moves nothing either.
 bool may_leave(MachineState state) {
@@ -44,38 +43,6 @@ Daemon::Daemon(EventLoop& loop, BusPort& bus, Gateway& gateway, const ServiceMan
   if (bus_.fd() >= 0) loop_.watch(bus_.fd(), EPOLLIN, [](std::uint32_t) {});
 }
 
-void Daemon::exchange_frames() {
-  for (int i = 0; i < kFramesPerTurn; ++i) {
-    const auto received = bus_.receive(loop_.now());
-    if (!received) break;
-    switch (received->kind) {
-      case BusPort::Received::Kind::kFrame:
-        gateway_.on_frame(received->when, received->frame);
-        break;
-      case BusPort::Received::Kind::kSent:
-        gateway_.on_frame_sent(received->when, received->frame);
-        break;
-      case BusPort::Received::Kind::kFailure:
-        gateway_.on_bus_failure(received->when, received->failure);
-        break;
-    }
-  }
-  // Nodes learn the time from it: it does not wait until the next piece of the path is planned.
-  if (loop_.now() >= gateway_.sync_due()) send_frames();
-  if (const LocalTime now = loop_.now(); now >= gateway_.next_deadline()) gateway_.on_time(now);
-  send_frames();
-}
-
-void Daemon::send_frames() {
-  LocalTime now = loop_.now();
-  while (bus_.can_send(now)) {
-    const auto frame = gateway_.next_frame(now);
-    if (!frame) break;
-    bus_.send(now, *frame);
-    now = loop_.now();
-  }
-}
-
 void Daemon::report_events() {
   while (auto event = gateway_.next_event()) {
     log_event(*event);
@@ -98,7 +65,7 @@ void Daemon::run(const volatile std::sig_atomic_t* quit, bool& anew) {
       gateway_.on_stall(loop_.now(), stall->length, stall->why);
       for (DaemonPart* part : parts_) part->on_stall(loop_.now(), stall->length);
     }
-    exchange_frames();
+    exchange_frames(loop_, bus_, gateway_);
     report_events();
     const LocalTime now = loop_.now();
     for (DaemonPart* part : parts_) part->on_time(now);

@@ -26,8 +26,6 @@ class Daemon {
   void run(const volatile std::sig_atomic_t* quit, bool& anew);
 
  private:
-  void exchange_frames();
-  void send_frames();
   void report_events();
   LocalTime next_deadline() const;
 

@@ -1,5 +1,6 @@
 #include "gateway/io/stream_hub.hpp"
 
+#include <poll.h>
 #include <sys/epoll.h>
 #include <unistd.h>
 
@@ -20,6 +21,9 @@ namespace {
 constexpr LocalTime kMostRest = std::chrono::milliseconds{20};
 /// After what is due has come: its echo and its stamp.
 constexpr LocalTime kAfterwards = std::chrono::microseconds{700};
+/// Each look asks the kernel.
+constexpr LocalTime kBetweenLooks = std::chrono::microseconds{200};
+constexpr LocalTime kHardlyAny = std::chrono::microseconds{20};
 /// Of the streams that are ready, in one turn.
 constexpr int kMostReady = 16;
 
@@ -46,6 +50,10 @@ struct StreamHub::Pair {
   bool full = false;  ///< the stream took less than there was: the kernel tells when it takes more
   bool closed = false;
   LocalTime close_at = LocalTime::max();  ///< its session has ended
+  ByteSession::Rank rank = ByteSession::Rank::kAny;
+  std::array<Frugality, kRanks> frugality{};  ///< in each rank
+
+  std::size_t lane() const { return static_cast<std::size_t>(rank); }
 };
 
 StreamHub::StreamHub(EventLoop& loop) : StreamHub(loop, Options()) {}
@@ -63,8 +71,27 @@ StreamHub::~StreamHub() {
   ::close(epoll_);
 }
 
+void StreamHub::keep_clear_of(const std::function<LocalTime()>& due) {
+  due_ = due;
+  for (const auto& lane : lanes_)
+    if (lane) lane->keep_clear_of(due);
+}
+
+void StreamHub::add_lane(ByteSession::Rank rank, const Options& options) {
+  auto& lane = lanes_[static_cast<std::size_t>(rank)];
+  lane = std::make_unique<StreamHub>(loop_, options);
+  comes_after(*lane);
+}
+
+std::size_t StreamHub::streams() const {
+  std::size_t count = pairs_.size();
+  for (const auto& lane : lanes_)
+    if (lane) count += lane->pairs_.size();
+  return count;
+}
+
 bool StreamHub::add(std::unique_ptr<ByteStream> stream, std::unique_ptr<ByteSession> session) {
-  if (pairs_.size() >= options_.max_streams) return false;
+  if (streams() >= options_.max_streams) return false;
   auto pair = std::make_unique<Pair>();
   pair->stream = std::move(stream);
   pair->session = std::move(session);
@@ -81,14 +108,100 @@ WorkGate& StreamHub::gate(int fd) {
   return *this;
 }
 
+/// nullptr: it has none.
+StreamHub* StreamHub::lane_of(const Pair& pair) const {
+  return lanes_[pair.lane()].get();
+}
+
+void StreamHub::hand_over(std::size_t index, StreamHub& to) {
+  std::unique_ptr<Pair> pair = std::move(pairs_[index]);
+  pairs_.erase(pairs_.begin() + static_cast<std::ptrdiff_t>(index));
+  if (index < first_) --first_;
+  ::epoll_ctl(epoll_, EPOLL_CTL_DEL, pair->stream->fd(), nullptr);
+  set_interest(to.epoll_, EPOLL_CTL_ADD, pair->stream->fd(), pair->interest, pair.get());
+  to.pairs_.push_back(std::move(pair));
+}
+
+/// Once a turn, when nothing is told of any of them.
+void StreamHub::sort_into_lanes() {
+  const LocalTime now = monotonic_now();
+  const auto sort = [&](StreamHub& from) {
+    for (std::size_t i = 0; i < from.pairs_.size();) {
+      Pair& pair = *from.pairs_[i];
+      pair.rank = pair.session->rank();
+      StreamHub* const lane = lane_of(pair);
+      StreamHub& to =
+          lane != nullptr && pair.frugality[pair.lane()].holds(lane->options_.frugal, now) ? *lane : *this;
+      if (pair.closed || &to == &from)
+        ++i;
+      else
+        from.hand_over(i, to);
+    }
+  };
+  for (const auto& lane : lanes_)
+    if (lane) sort(*lane);
+  sort(*this);
+}
+
+/// True: it had something to do. Until then its turn has not begun.
+bool StreamHub::looked_at() {
+  pollfd all{.fd = epoll_, .events = POLLIN, .revents = 0};
+  if (rest_until_ != LocalTime{0} || ::poll(&all, 1, 0) < 1) return false;
+  const LocalTime used = used_;
+  on_some_ready();
+  return used_ != used;
+}
+
+/// True: the bus waits for what they asked for. They do not keep this one from its work for long: they have
+/// their shares.
+bool StreamHub::others_had_something() {
+  const LocalTime now = monotonic_now();
+  if (before_.empty() || now < looks_at_) return false;
+  looks_at_ = now + kBetweenLooks;
+  bool had = false;
+  for (StreamHub* const other : before_) {
+    const LocalTime used = other->used_;
+    if (!other->looked_at()) continue;
+    had = true;
+    if (!works_since_) continue;
+    *works_since_ += other->used_ - used;
+    counted_ += other->used_ - used;
+  }
+  return had;
+}
+
+void StreamHub::begin_work() {
+  if (!works_since_) works_since_ = counted_ = thread_time();
+}
+
+void StreamHub::end_work() {
+  if (works_since_) used_ += std::max(thread_time() - *works_since_, LocalTime{1});
+  works_since_.reset();
+}
+
+/// A piece of a stream's work is over.
+void StreamHub::note(Pair& pair, LocalTime begin) {
+  const LocalTime end = monotonic_now();
+  longest_.note(begin, end);
+  // Most have nothing to do: for these the kernel is not asked.
+  if (end - begin < kHardlyAny) return;
+  const LocalTime before = std::exchange(counted_, thread_time());
+  const StreamHub* const lane = lane_of(pair);
+  pair.frugality[pair.lane()].note((lane != nullptr ? *lane : *this).options_.frugal, end, counted_ - before);
+}
+
 /// One at least in a turn, whatever time is left: streams that always have something would keep it out.
 bool StreamHub::begins() {
+  if (others_had_something()) return false;
   gate_opened_ = monotonic_now();
   static_cast<void>(time_left());
-  return !in_the_way(gate_opened_);
+  if (in_the_way(gate_opened_)) return false;
+  begin_work();
+  return true;
 }
 
 void StreamHub::ends() {
+  end_work();
   longest_.note(gate_opened_, monotonic_now());
 }
 
@@ -105,35 +218,33 @@ bool StreamHub::time_left() {
   const LocalTime now = monotonic_now();
   if (work_until_ == LocalTime::max()) {
     work_until_ = now + options_.work_per_turn;
-    began_ = thread_time();
-    if (const LocalTime due = due_ ? due_() : LocalTime::max(); due != LocalTime::max()) {
-      clear_to_ = due + loop_.behind();
-      clear_from_ = clear_to_ - std::min(longest_.lately(), options_.most_kept_clear);
-    }
+    see_what_is_due();
   }
   return now < work_until_ && !in_the_way(now);
 }
 
-void StreamHub::LongestPiece::note(LocalTime begin, LocalTime end) {
-  if (end - begin_ > kWindow) {
-    before_ = now_;
-    now_ = kLeast;
-    begin_ = end;
-  }
-  now_ = std::max(now_, end - begin);
+void StreamHub::see_what_is_due() {
+  const LocalTime due = due_ ? due_() : LocalTime::max();
+  if (due == LocalTime::max()) return;
+  clear_to_ = due + loop_.behind();
+  clear_from_ = clear_to_ - std::min(longest_.lately(), options_.most_kept_clear);
 }
 
 /// Of the streams that are ready, 16 a turn. One is asked for at a time: the kernel puts who was told behind
 /// all others, and who is told when the turn's time is up would go there without having been served, again
 /// and again. None is destroyed before on_time.
 void StreamHub::on_some_ready() {
-  for (int i = 0; i < kMostReady && time_left(); ++i) {
+  // Behind a rest one is served, whatever others have.
+  for (int i = 0; i < kMostReady && ((i == 0 && waited_) || !others_had_something()) && time_left(); ++i) {
     epoll_event event{};
-    if (::epoll_wait(epoll_, &event, 1, 0) < 1) return;
+    if (::epoll_wait(epoll_, &event, 1, 0) < 1) break;
+    begin_work();
+    Pair& pair = *static_cast<Pair*>(event.data.ptr);
     const LocalTime begin = monotonic_now();
-    on_ready(*static_cast<Pair*>(event.data.ptr), event.events);
-    longest_.note(begin, monotonic_now());
+    on_ready(pair, event.events);
+    note(pair, begin);
   }
+  end_work();
 }
 
 void StreamHub::on_ready(Pair& pair, std::uint32_t events) {
@@ -155,6 +266,7 @@ void StreamHub::on_ready(Pair& pair, std::uint32_t events) {
     if (moved.count == 0) break;
     taken += moved.count;
   }
+  if (options_.at_once && loop_.now() >= pair.session->next_deadline()) pair.session->on_time(loop_.now());
   send(pair);
 }
 
@@ -190,10 +302,12 @@ void StreamHub::pay(LocalTime now) {
   };
   credit_ = std::min(options_.burst, credit_ + share_of(now - paid_));
   paid_ = now;
-  if (work_until_ != LocalTime::max()) {
-    credit_ = std::max(-options_.burst, credit_ - (thread_time() - began_));
-    waited_ = false;
-  }
+  owed_ += used_;
+  for (const auto& lane : lanes_)
+    if (lane) used_ += std::exchange(lane->owed_, LocalTime{0});
+  credit_ = std::max(-options_.burst, credit_ - std::exchange(used_, LocalTime{0}));
+  waited_ = false;
+  if (work_until_ == LocalTime::max()) see_what_is_due();
   work_until_ = LocalTime::max();
   clears_ = in_the_way(monotonic_now());
   if (clears_) rest_until_ = clear_to_ - loop_.behind() + kAfterwards;
@@ -210,6 +324,9 @@ void StreamHub::watch_all(std::uint32_t events) {
 }
 
 void StreamHub::on_time(LocalTime now) {
+  if (has_lanes()) sort_into_lanes();
+  for (const auto& lane : lanes_)
+    if (lane) lane->on_time(now);
   if (now < rest_until_) return;
   if (rest_until_ != LocalTime{0}) {
     watch_all(EPOLLIN);
@@ -221,14 +338,16 @@ void StreamHub::on_time(LocalTime now) {
   // Sessions may make new streams' sessions speak, and close each other: the list is walked by index.
   const std::size_t count = pairs_.size();
   std::size_t served = 0;
-  for (; served < count; ++served) {
+  if (count > 0) begin_work();
+  for (; served < count && !others_had_something(); ++served) {
     Pair& pair = *pairs_[(first_ + served) % count];
     if (pair.closed) continue;
     const LocalTime begin = monotonic_now();
     if (!time_left() && (served > 0 || in_the_way(begin))) break;
     serve(pair, now);
-    longest_.note(begin, monotonic_now());
+    note(pair, begin);
   }
+  end_work();
   first_ = count > 0 ? (first_ + served) % count : 0;
   pay(now);
   const auto gone = [](const auto& pair) { return pair->closed; };
@@ -239,6 +358,8 @@ void StreamHub::on_time(LocalTime now) {
 }
 
 void StreamHub::on_stall(LocalTime now, LocalTime length) {
+  for (const auto& lane : lanes_)
+    if (lane) lane->on_stall(now, length);
   if (length < options_.absence) return;
   for (const auto& pair : pairs_)
     if (!pair->closed) pair->session->on_absence(now);
@@ -257,8 +378,10 @@ void StreamHub::serve(Pair& pair, LocalTime now) {
 }
 
 LocalTime StreamHub::next_deadline() const {
-  if (rest_until_ != LocalTime{0}) return rest_until_;
   LocalTime next = LocalTime::max();
+  for (const auto& lane : lanes_)
+    if (lane) next = std::min(next, lane->next_deadline());
+  if (rest_until_ != LocalTime{0}) return std::min(next, rest_until_);
   for (const auto& pair : pairs_) {
     if (pair->stream->buffered() && pair->session->wants_bytes()) return LocalTime{0};
     if (pair->session->ended())

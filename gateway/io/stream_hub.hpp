@@ -1,19 +1,22 @@
 #pragma once
 // Joins streams with the sessions that speak on them, within the daemon's loop: moves bytes both ways in
-// bounded portions, so that no client keeps the loop from the bus.
+// bounded portions, so that no client keeps the loop from the bus. Who may stop the machine has a lane of its
+// own, which the others do not fill.
 
-#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <utility>
+#include <optional>
 #include <vector>
 
 #include "gateway/io/byte_stream.hpp"
 #include "gateway/io/daemon_part.hpp"
 #include "gateway/io/event_loop.hpp"
+#include "gateway/io/frugality.hpp"
+#include "gateway/io/longest_piece.hpp"
 #include "gateway/io/work_gate.hpp"
 #include "gateway/sessions/byte_session.hpp"
 
@@ -38,6 +41,10 @@ class StreamHub : public DaemonPart, private WorkGate {
     LocalTime most_kept_clear = std::chrono::milliseconds{10};
     /// A stall of the loop so long is told to the sessions: they allow their clients several times that.
     LocalTime absence = std::chrono::seconds{1};
+    /// What a session has heard is carried out at once, not when it is its turn.
+    bool at_once = false;
+    /// Of a lane: of each of its streams.
+    Frugality::Options frugal{};
   };
 
   explicit StreamHub(EventLoop& loop);
@@ -49,7 +56,14 @@ class StreamHub : public DaemonPart, private WorkGate {
   /// Nothing is begun that might not be done when `due()`, a time of the loop, comes (max: none); until then
   /// streams rest. What may take so long is what has lately taken longest. Behind each such rest they have a
   /// turn.
-  void keep_clear_of(std::function<LocalTime()> due) { due_ = std::move(due); }
+  void keep_clear_of(const std::function<LocalTime()>& due);
+
+  /// Frugal streams whose session is of this rank are served by a lane: a hub with a share of its own, which
+  /// counts as this one's, too. It does not rest when this one does.
+  void add_lane(ByteSession::Rank rank, const Options& options);
+  /// Before each piece of this one's work the other is looked at; where it had something to do, that goes out
+  /// on the bus first. Lanes come before their hub as it is.
+  void comes_after(StreamHub& other) { before_.push_back(&other); }
 
   /// False: too many streams, both are destroyed.
   bool add(std::unique_ptr<ByteStream> stream, std::unique_ptr<ByteSession> session);
@@ -63,21 +77,23 @@ class StreamHub : public DaemonPart, private WorkGate {
   void on_time(LocalTime now) override;
   void on_stall(LocalTime now, LocalTime length) override;
   LocalTime next_deadline() const override;
-  std::size_t streams() const { return pairs_.size(); }
+  std::size_t streams() const;
+  /// In the lanes.
+  std::size_t streams_first() const { return streams() - pairs_.size(); }
 
  private:
   struct Pair;
-  /// The longest piece of work of the last seconds: a request carried out, an answer written.
-  class LongestPiece {
-   public:
-    void note(LocalTime begin, LocalTime end);
-    LocalTime lately() const { return std::max(now_, before_); }
-
-   private:
-    static constexpr LocalTime kWindow = std::chrono::seconds{5}, kLeast = std::chrono::microseconds{100};
-    LocalTime now_ = kLeast, before_ = std::chrono::milliseconds{5}, begin_{0};
-  };
+  static constexpr std::size_t kRanks = 3;
   void on_some_ready();
+  bool looked_at();
+  bool others_had_something();
+  void sort_into_lanes();
+  void hand_over(std::size_t index, StreamHub& to);
+  StreamHub* lane_of(const Pair& pair) const;
+  bool has_lanes() const { return lanes_ != decltype(lanes_)(); }
+  void note(Pair& pair, LocalTime begin);
+  void begin_work();
+  void end_work();
   void on_ready(Pair& pair, std::uint32_t events);
   void pay(LocalTime now);
   bool begins() override;
@@ -85,6 +101,7 @@ class StreamHub : public DaemonPart, private WorkGate {
   void watch_all(std::uint32_t events);
   void serve(Pair& pair, LocalTime now);
   bool time_left();
+  void see_what_is_due();
   bool in_the_way(LocalTime now) const { return !waited_ && clear_from_ <= now && now < clear_to_; }
   void send(Pair& pair);
   void watch(Pair& pair, bool has_output);
@@ -95,10 +112,16 @@ class StreamHub : public DaemonPart, private WorkGate {
   int epoll_;  ///< of all streams: the loop looks at this one, and not while they rest
   std::vector<std::unique_ptr<Pair>> pairs_;
   std::vector<int> doors_;
+  std::array<std::unique_ptr<StreamHub>, kRanks> lanes_;  ///< by rank
+  std::vector<StreamHub*> before_;
+  LocalTime looks_at_{0};
   std::size_t first_ = 0;                    ///< who is served first in the next turn
   LocalTime work_until_ = LocalTime::max();  ///< of this turn; max: it has not begun
   LocalTime credit_, paid_{0};               ///< what streams may use now; when that was counted
-  LocalTime began_{0};                       ///< the loop's processor time when the turn's work began
+  std::optional<LocalTime> works_since_;     ///< by the loop's processor time
+  LocalTime counted_{0};                     ///< up to here it was some stream's
+  LocalTime used_{0};                        ///< of that time in this turn
+  LocalTime owed_{0};                        ///< of it, to the hub whose lane this is
   LocalTime rest_until_{0};
   LocalTime gate_opened_{0};
   std::function<LocalTime()> due_;

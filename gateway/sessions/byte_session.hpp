@@ -13,6 +13,9 @@ namespace kinebus {
 
 class ByteSession {
  public:
+  /// How soon it deserves to be heard: who may stop the machine has shown who it is before.
+  enum class Rank : std::uint8_t { kAny, kMayStop, kInControl };
+
   virtual ~ByteSession() = default;
 
   /// Takes what came; what it asks for may be left to on_time(), a bounded part at a time.
@@ -29,6 +32,8 @@ class ByteSession {
   virtual bool wants_bytes() const { return true; }
   /// True: the stream is to be closed when all of next_bytes() is sent.
   virtual bool ended() const = 0;
+  /// As it is now: control moves from one to another.
+  virtual Rank rank() const { return Rank::kAny; }
   /// The stream is gone. The session is destroyed soon after.
   virtual void on_closed(LocalTime now, std::string_view why) = 0;
 };

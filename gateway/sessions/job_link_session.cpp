@@ -95,6 +95,11 @@ bool JobLinkSession::wants_bytes() const {
   return !full() && !ended_ && !(unread_ && reader_.pending() > kEnoughUnread);
 }
 
+ByteSession::Rank JobLinkSession::rank() const {
+  if (client_ == 0 || ended_ || info_.token.empty()) return Rank::kAny;
+  return server_.control_.holder() == client_ ? Rank::kInControl : Rank::kMayStop;
+}
+
 void JobLinkSession::on_bytes(LocalTime now, std::span<const std::uint8_t> bytes) {
   now_ = now;
   last_heard_ = now;

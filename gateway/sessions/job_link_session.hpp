@@ -24,6 +24,8 @@ class JobLinkSession : public ByteSession, public Requester {
   void on_bytes_sent(std::size_t count) override;
   bool wants_bytes() const override;
   bool ended() const override { return ended_; }
+  /// A token was asked for and said: that a stream of this computer has none is no merit.
+  Rank rank() const override;
   void on_closed(LocalTime now, std::string_view why) override;
 
   std::uint64_t id() const { return id_; }

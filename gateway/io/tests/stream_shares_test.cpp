@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstddef>
-#include <ctime>
 #include <string>
 
 #include "gateway/io/listener.hpp"
@@ -31,38 +30,6 @@ TEST_F(StreamsTest, SessionsHearThatTheLoopWasAwayButOfNoTrifles) {
   hub_.on_stall(monotonic_now(), 20s);
   EXPECT_EQ(absences, 2);
 }
-
-/// Uses half a millisecond of the processor, however long the host takes for that.
-void labour() {
-  const auto used = [] {
-    timespec time{};
-    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return std::chrono::seconds{time.tv_sec} + std::chrono::nanoseconds{time.tv_nsec};
-  };
-  const auto until = used() + 500us;
-  while (used() < until) {
-  }
-}
-
-/// Takes half a millisecond for whatever it hears.
-class Laborious : public ByteSession {
- public:
-  explicit Laborious(int* heard) : heard_(heard) {}
-  void on_bytes(LocalTime, std::span<const std::uint8_t>) override {
-    ++*heard_;
-    labour();
-  }
-  void on_time(LocalTime) override {}
-  LocalTime next_deadline() const override { return LocalTime::max(); }
-  std::span<const std::uint8_t> next_bytes() override { return {}; }
-  void on_bytes_sent(std::size_t) override {}
-  bool wants_bytes() const override { return true; }
-  bool ended() const override { return false; }
-  void on_closed(LocalTime, std::string_view) override {}
-
- private:
-  int* heard_;
-};
 
 // A slow host makes fewer turns: the bound holds on any.
 TEST_F(StreamsTest, AFloodLeavesTheRestOfTheLoopsTimeToOthers) {

@@ -1,11 +1,13 @@
 #pragma once
-// A loop and a hub with real sockets, and a session that says back what it hears. No sleep, no clock but the
+// A loop and a hub with real sockets, a session that says back what it hears, and one that takes its
+// time. No sleep, no clock but the
 // loop's.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <ctime>
 #include <functional>
 #include <string>
 
@@ -42,6 +44,38 @@ class Echo : public ByteSession {
   int *closed_, *absences_;
   std::string out_;
   std::size_t most_ = 0;
+};
+
+/// Uses half a millisecond of the processor, however long the host takes for that.
+inline void labour() {
+  const auto used = [] {
+    timespec time{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return std::chrono::seconds{time.tv_sec} + std::chrono::nanoseconds{time.tv_nsec};
+  };
+  const auto until = used() + 500us;
+  while (used() < until) {
+  }
+}
+
+/// Takes half a millisecond for whatever it hears.
+class Laborious : public ByteSession {
+ public:
+  explicit Laborious(int* heard) : heard_(heard) {}
+  void on_bytes(LocalTime, std::span<const std::uint8_t>) override {
+    ++*heard_;
+    labour();
+  }
+  void on_time(LocalTime) override {}
+  LocalTime next_deadline() const override { return LocalTime::max(); }
+  std::span<const std::uint8_t> next_bytes() override { return {}; }
+  void on_bytes_sent(std::size_t) override {}
+  bool wants_bytes() const override { return true; }
+  bool ended() const override { return false; }
+  void on_closed(LocalTime, std::string_view) override {}
+
+ private:
+  int* heard_;
 };
 
 class StreamsTest : public ::testing::Test {

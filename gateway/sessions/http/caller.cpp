@@ -71,6 +71,12 @@ void Caller::take_reply(joblink::Reply reply) {
   then(reply);
 }
 
+ByteSession::Rank Caller::rank_of_client() const {
+  if (role() == Role::kNobody) return ByteSession::Rank::kAny;
+  const bool in_control = client_ != 0 && server_.control().holder() == client_;
+  return in_control ? ByteSession::Rank::kInControl : ByteSession::Rank::kMayStop;
+}
+
 void Caller::wait_for(std::function<bool(LocalTime)> look) {
   looks_.push_back(std::move(look));
   next_look_ = now_;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "gateway/sessions/byte_session.hpp"
 #include "gateway/sessions/http/http_server.hpp"
 #include "gateway/sessions/requester.hpp"
 
@@ -52,6 +53,8 @@ class Caller : public Requester {
                          });
     ++*awaited_;
   }
+  /// By the role of its last request, and control.
+  ByteSession::Rank rank_of_client() const;
   /// Asks `look` now and then until it answers true.
   void wait_for(std::function<bool(LocalTime)> look);
 

@@ -70,6 +70,7 @@ class Session : public ByteSession, public Caller {
   void on_bytes_sent(std::size_t count) override;
   bool wants_bytes() const override;
   bool ended() const override { return socket_ ? socket_->ended() : ended_; }
+  Rank rank() const override { return socket_ ? socket_->rank() : ended_ ? Rank::kAny : rank_of_client(); }
   void on_closed(LocalTime now, std::string_view why) override;
 
   const std::string& peer() const { return peer_; }

@@ -61,6 +61,7 @@ class Socket : public ByteSession, public Caller {
   void on_bytes_sent(std::size_t count) override;
   bool wants_bytes() const override;
   bool ended() const override { return ended_; }
+  Rank rank() const override { return is_in_ && !ended_ ? rank_of_client() : Rank::kAny; }
   void on_closed(LocalTime now, std::string_view why) override;
 
  private:

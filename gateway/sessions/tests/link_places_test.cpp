@@ -50,6 +50,26 @@ TEST(LinkPlaces, AClientOfThisComputerThatWasStoppedComesBackOnItsStream) {
   EXPECT_EQ(rig.control.holder(), here.link.client_id());
 }
 
+TEST(LinkPlaces, OnlyWhoHasSaidTheTokenRanksBeforeTheOthersAndControlRanksFirst) {
+  using Rank = ByteSession::Rank;
+  LinkRig rig;
+  const SessionInfo far{.transport = "tcp a", .token = "secret", .peer = "a", .remote = true};
+  LinkedClient& known = rig.connect("known", 0, far, "secret");
+  LinkedClient& wrong = rig.connect("wrong", 0, far, "guessed");
+  LinkedClient& here = rig.connect("here");
+  const auto silent = rig.server->open(rig.machine.now, far);
+  for (const ByteSession* session : {wrong.session.get(), here.session.get(), silent.get()})
+    EXPECT_EQ(session->rank(), Rank::kAny);
+  EXPECT_EQ(known.session->rank(), Rank::kMayStop);
+  ASSERT_FALSE(rig.ask(known, take_control()).has_error());
+  EXPECT_EQ(known.session->rank(), Rank::kInControl);
+  ASSERT_FALSE(rig.ask(here, take_control(true)).has_error());
+  EXPECT_EQ(known.session->rank(), Rank::kMayStop);
+  EXPECT_EQ(here.session->rank(), Rank::kAny);
+  known.session->on_closed(rig.machine.now, "gone");
+  EXPECT_EQ(known.session->rank(), Rank::kAny);
+}
+
 TEST(LinkPlaces, AfterAPauseOfTheWholeComputerNobodyIsSilent) {
   LinkRig rig;
   LinkedClient& client = rig.connect("client");

@@ -173,6 +173,34 @@ TEST(Roles, AWebsocketHasThoseOfItsHello) {
       "operate");
 }
 
+TEST(Roles, WhoMayNotEvenStopRanksWithTheStrangers) {
+  using Rank = ByteSession::Rank;
+  UsersRig rig;
+  const auto rank_after = [&](const std::string& key, int status) {
+    Connection& connection = rig.connect();
+    EXPECT_EQ(connection.session->rank(), Rank::kAny);
+    const std::string field = key.empty() ? key : "X-Api-Key: " + key + "\r\n";
+    const std::string request = "GET /api/job HTTP/1.1\r\nHost: 127.0.0.1:5000\r\n" + field + "\r\n";
+    EXPECT_EQ(rig.ask(connection, request).status, status);
+    return connection.session->rank();
+  };
+  EXPECT_EQ(rank_after("", 401), Rank::kAny);
+  EXPECT_EQ(rank_after("a-key-that-nobody-has", 401), Rank::kAny);
+  EXPECT_EQ(rank_after(kWatchKey, 200), Rank::kMayStop);
+  SocketClient stranger(rig, "/websocket", "");
+  EXPECT_EQ(stranger.wire.session->rank(), Rank::kAny);
+  SocketClient wall(rig, "/kinebus/v1/socket", kWatchKey);
+  EXPECT_EQ(wall.wire.session->rank(), Rank::kMayStop);
+  SocketClient anna(rig, "/kinebus/v1/socket", kOperateKey);
+  anna.say(R"({"request_id":1,"hello":{"version_major":2}})");
+  anna.say(R"({"request_id":2,"take_control":{}})");
+  EXPECT_EQ(anna.wire.session->rank(), Rank::kInControl);
+  anna.wire.session->on_closed(rig.link.machine.now, "gone");
+  EXPECT_EQ(anna.wire.session->rank(), Rank::kAny);
+  rig.address = "10.0.0.1";  // trusted
+  EXPECT_EQ(rank_after("", 200), Rank::kMayStop);
+}
+
 TEST(Roles, TheClientsOfAUserBearItsName) {
   UsersRig rig;
   SocketClient client(rig, "/kinebus/v1/socket", kOperateKey);
