@@ -57,7 +57,7 @@ constexpr StreamHub::Options kMayStop{.share = 0.1,
                                       .burst = std::chrono::milliseconds{10},
                                       .at_once = true,
                                       .frugal = {.share = 0.02,
-                                                 .burst = std::chrono::milliseconds{20},
+                                                 .burst = std::chrono::milliseconds{10},
                                                  .pause = std::chrono::seconds{5},
                                                  .trial = std::chrono::seconds{5}}};
 

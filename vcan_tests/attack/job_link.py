@@ -3,7 +3,7 @@ import struct
 import zlib
 
 FIELDS = {"hello": 10, "ping": 11, "get_status": 13, "upload_begin": 20, "list_jobs": 24, "read_job": 26, "hold": 41, "resume": 42, "stop": 44, "bring_up": 46,
-          "take_control": 60, "get_events": 71, "check_machine_file": 73}
+          "take_control": 60, "release_control": 61, "get_events": 71, "check_machine_file": 73}
 
 REPLY, ERROR = 1, 2  # of ServerMessage, of Reply
 
