@@ -3,6 +3,7 @@
 // bounded portions, so that no client keeps the loop from the bus. Who may stop the machine has a lane of its
 // own, which the others do not fill.
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -90,7 +91,9 @@ class StreamHub : public DaemonPart, private WorkGate {
   void sort_into_lanes();
   void hand_over(std::size_t index, StreamHub& to);
   StreamHub* lane_of(const Pair& pair) const;
-  bool has_lanes() const { return lanes_ != decltype(lanes_)(); }
+  bool has_lanes() const {
+    return std::ranges::any_of(lanes_, [](const auto& lane) { return lane != nullptr; });
+  }
   void note(Pair& pair, LocalTime begin);
   void begin_work();
   void end_work();

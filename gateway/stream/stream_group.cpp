@@ -113,7 +113,7 @@ Result<void, StreamError> StreamGroup::pump() {
         take_up_.push(**sampled);
         span = take_up_.next();
       } else {
-        span = std::move(*sampled);
+        span = *sampled;
       }
     }
     if (auto ok = feed(*span); !ok) return ok;

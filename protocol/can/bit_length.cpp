@@ -29,7 +29,7 @@ constexpr auto kCrcTable = [] {
 // A step of one byte gives the next state in bits 8 to 10, and the stuff bits that it brings below.
 constexpr unsigned kStates = 8, kStateMask = 0x700;
 constexpr auto kStuffTable = [] {
-  std::array<std::uint16_t, kStates * 256> table{};
+  std::array<std::uint16_t, std::size_t{kStates} * 256> table{};
   for (unsigned state = 0; state < kStates; ++state) {
     for (unsigned byte = 0; byte < 256; ++byte) {
       unsigned level = state / 4, run = state % 4 + 1, stuffed = 0;
