@@ -12,7 +12,7 @@ namespace {
 
 using joblink::ClientMessage;
 using namespace std::chrono_literals;
-using Phase = joblink::UploadNews::Phase;
+using UploadPhase = joblink::UploadNews::Phase;
 
 std::string gcode_of(std::size_t size) {
   std::string text;
@@ -43,7 +43,7 @@ TEST(LinkUploads, AnUploadIsStoredAndAllHearOfIt) {
   rig.upload(anna, "part.gcode", text);
   rig.pump();
   ASSERT_FALSE(anna.all<joblink::UploadNews>().empty());
-  EXPECT_EQ(anna.all<joblink::UploadNews>().back().phase, Phase::kStored);
+  EXPECT_EQ(anna.all<joblink::UploadNews>().back().phase, UploadPhase::kStored);
   EXPECT_EQ(stored_text(rig, "part.gcode"), text);
   EXPECT_TRUE(bert.saw_event(joblink::EVENT_JOBS));
   const auto jobs = rig.ask(bert, plain(&ClientMessage::mutable_list_jobs)).jobs();
@@ -66,7 +66,7 @@ TEST(LinkUploads, AnUploadGoesOnWhereverTheCableIsPulled) {
     if (round % 2 == 0) rig.pump();
     rig.plug(anna);
     rig.pump();
-    ASSERT_EQ(anna.all<joblink::UploadNews>().back().phase, Phase::kStored) << "cut after " << cut;
+    ASSERT_EQ(anna.all<joblink::UploadNews>().back().phase, UploadPhase::kStored) << "cut after " << cut;
     ASSERT_EQ(stored_text(rig, name), text) << "cut after " << cut;
     anna.news.clear();
   }
