@@ -33,6 +33,7 @@ TEST(LinkNews, AStatusIsThatAfterTheLastCommandAndTellsWhoIsHere) {
   anna.greet(1);
   EXPECT_EQ(anna.ask(kGetStatus).status().clients_size(), 1);
   bert.greet(1);
+  EXPECT_EQ(anna.ask(kGetStatus).status().clients_size(), 2);
   anna.ask(take_control());
   auto status = anna.ask(kGetStatus).status();
   ASSERT_EQ(status.clients_size(), 2);

@@ -101,7 +101,7 @@ TEST(LinkPlaces, WhenAllPlacesAreTakenEveryoneMayStillStopTheMachine) {
 // Who goes when places are taken, and how many there are.
 
 SessionInfo remote_of(const std::string& peer) {
-  return {.transport = "tcp " + peer, .token = {}, .peer = peer, .remote = true};
+  return {.transport = "tcp", .token = {}, .peer = peer, .remote = true};
 }
 void fill(LinkRig& rig, int count, const SessionInfo& info) {
   for (int i = 0; i < count; ++i) rig.connect("crowd", 0, info);
@@ -194,11 +194,12 @@ TEST(LinkPlaces, WhoHadControlIsNoVisitorWhenItComesBackAndOnlyOnce) {
 
 TEST(LinkPlaces, AKeyThatNobodyHasGivesNothingAndEndsNobody) {
   LinkRig rig;
-  RawClient anna(rig), bert(rig), nobody(rig), guesser(rig);
+  RawClient anna(rig), bert(rig), nobody(rig), guesser(rig), stranger(rig);
   const std::string key = anna.greet(1).hello().resume_key();
   bert.greet(1);
   nobody.greet(1, hello_of({}, ""));
   EXPECT_EQ(rig.control.clients().size(), 3U);
+  EXPECT_FALSE(stranger.stream->ended());
   ASSERT_FALSE(anna.ask(take_control()).has_error());
   guesser.greet(1, hello_of({}, key.substr(1)));
   EXPECT_EQ(rig.control.clients().size(), 4U);
