@@ -107,6 +107,7 @@ TEST(LinkUploads, AnUploadIsThatOfWhoBeganIt) {
   for (const ClientMessage& foreign : {chunk, commit, abort})
     EXPECT_EQ(rig.ask(bert, foreign).error().code(), joblink::ERROR_BAD_VALUE);
   EXPECT_FALSE(rig.ask(anna, chunk).has_error());
+  EXPECT_EQ(rig.ask(bert, commit).error().code(), joblink::ERROR_BAD_VALUE) << "though it is whole";
   EXPECT_TRUE(rig.ask(anna, commit).upload().stored());
 }
 
