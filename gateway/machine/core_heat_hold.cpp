@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "gateway/jobs/machine_setup.hpp"
 #include "gateway/machine/core.hpp"
 
 namespace kinebus {

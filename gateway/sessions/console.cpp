@@ -28,8 +28,8 @@ Code code_of(std::string_view line) {
 }
 
 constexpr std::array<int, 8> kQueries{27, 105, 112, 114, 115, 119, 410, 503};
-constexpr std::array<int, 16> kSessionCommands{17,  18,  24,  25,  84,  104, 106, 107,
-                                               140, 220, 303, 524, 906, 956, 999, 28};
+constexpr std::array<int, 15> kSessionCommands{17,  18,  24,  25,  84,  104, 106, 107,
+                                               140, 220, 303, 524, 906, 956, 999};
 
 template <std::size_t n>
 bool contains(const std::array<int, n>& codes, int code) {
@@ -55,8 +55,7 @@ Result<std::string, Refusal> console_line(Gateway& gateway, std::string_view lin
   const Code code = code_of(line);
   if (code.letter == 0) return std::string();
   const bool home = code.letter == 'G' && code.number == 28;
-  const bool session = asks(code, line) ||
-                       (code.letter == 'M' && contains(kSessionCommands, code.number) && code.number != 28);
+  const bool session = asks(code, line) || (code.letter == 'M' && contains(kSessionCommands, code.number));
   if (home || session) return gateway.text_line(line);
   if (const auto done = run_line(gateway, line); !done) return Error<Refusal>(done.error());
   return std::string("ok");

@@ -77,7 +77,7 @@ bool JobLinkServer::has_place_for(const JobLinkSession& session) const {
   if (info.lasting) return true;
   std::size_t clients = 0, of_side = 0, of_peer = 0;
   for (const auto& [id, other] : sessions_) {
-    if (other == &session || !other->takes_place()) continue;
+    if (!other->takes_place()) continue;
     ++clients;
     if (other->info().remote == info.remote) ++of_side;
     if (other->info().peer == info.peer) ++of_peer;
@@ -131,8 +131,7 @@ void JobLinkServer::welcome(LocalTime now, JobLinkSession& session, const joblin
   forget_status();
   // The same client may be back before its old stream is known to be dead.
   for (const auto& [id, other] : sessions_)
-    if (other != &session && !hello.resume_key().empty() && other->resume_key() == hello.resume_key() &&
-        other->client() != 0) {
+    if (other->client() != 0 && other->resume_key() == hello.resume_key()) {
       other->end(now, "this client has come back on another connection");
       break;
     }
@@ -142,9 +141,7 @@ void JobLinkServer::welcome(LocalTime now, JobLinkSession& session, const joblin
   if (visits) make_room(now, &JobLinkSession::visitor, options_.places.visitors);
   const ClientId client =
       control_.attach(shown(hello.client_name(), kMaxNameBytes), session.info().transport);
-  if (!visits && !vanished_key_.empty() && vanished_key_ == hello.resume_key() &&
-      control_.take(client, false))
-    vanished_key_.clear();
+  if (returns && control_.take(client, false)) vanished_key_.clear();
   const std::string key =
       joblink::sha256_of(options_.secret + "/" + std::to_string(++keys_made_)).substr(0, 16);
   session.welcomed(now, client, key, visits);

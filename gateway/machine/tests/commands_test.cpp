@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include "gateway/description/machine_description.hpp"
 #include "gateway/machine/gateway.hpp"
 
@@ -20,6 +24,40 @@ TEST(Commands, MotionBeginsOnlyWhenReady) {
     for (const CommandKind command : {command::kind<command::Run>, command::kind<command::OpenLines>,
                                       command::kind<command::GoToReference>})
       EXPECT_EQ(allowed(command, static_cast<S>(i)), static_cast<S>(i) == S::kReady);
+}
+
+TEST(Commands, EachIsTakenInItsStatesAndInNoOthers) {
+  using namespace command;
+  const std::vector<S> rest{S::kUnhomed, S::kReady, S::kStopped, S::kAlarm};
+  const std::vector<std::pair<CommandKind, std::vector<S>>> table{
+      {kind<BringUp>, {S::kOff}},
+      {kind<Home>, {S::kUnhomed, S::kReady}},
+      {kind<Hold>, {S::kMoving, S::kRunning}},
+      {kind<Resume>, {S::kHeld, S::kOff, S::kUnhomed, S::kReady}},
+      {kind<Clear>, {S::kStopped, S::kAlarm}},
+      {kind<MotorsOff>, rest},
+      {kind<MovePin>, rest},
+      {kind<TuneMotor>, {S::kUnhomed, S::kReady}},
+      {kind<TuneHeater>, {S::kUnhomed, S::kReady}},
+      {kind<JogMotor>, {S::kReady}},
+      {kind<MoveFilament>, {S::kReady}},
+      {kind<StepAside>, {S::kHeld}},
+      {kind<ExcludeObject>, {S::kRunning, S::kHolding, S::kHeld}},
+      {kind<Cancel>,
+       {S::kMoving, S::kRunning, S::kHolding, S::kHeld, S::kChecking, S::kOff, S::kUnhomed, S::kReady}},
+  };
+  for (const auto& [command, states] : table)
+    for (int i = 0; i < kMachineStates; ++i) {
+      const auto state = static_cast<S>(i);
+      EXPECT_EQ(allowed(command, state), std::find(states.begin(), states.end(), state) != states.end())
+          << sentence(command) << " while " << to_string(state);
+    }
+  for (int i = 0; i < kMachineStates; ++i) {
+    const auto state = static_cast<S>(i);
+    for (const CommandKind heats : {kind<SetTemperature>, kind<SetSpindle>})
+      EXPECT_EQ(allowed(heats, state), state != S::kAlarm) << "what is dangerous stays off in an alarm";
+    EXPECT_EQ(allowed(kind<SetMotorCurrents>, state), state != S::kOff && state != S::kBringUp);
+  }
 }
 
 TEST(Commands, AJogMayFollowAnother) {

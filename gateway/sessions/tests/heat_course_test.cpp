@@ -64,6 +64,40 @@ TEST(HeatCourse, KeepsTheWholeOfALongJobWithinItsBounds) {
   EXPECT_EQ(course.message().job().time_s_size(), 1);
 }
 
+TEST(HeatCourse, AJobThatBeginsAgainOrAnotherOneBeginsItsCourseAnew) {
+  HeatCourse course;
+  for (int i = 0; i < 1300; ++i) course.take(heat_at(i, "a", i));
+  EXPECT_EQ(course.message().job().period_s(), 2) << "thinned by half";
+  EXPECT_EQ(course.message().job_elapsed_s(), 1299);
+  ASSERT_EQ(course.message().job().time_s_size(), 650);
+  for (int i = 0; i < 650; ++i) EXPECT_DOUBLE_EQ(course.message().job().time_s(i), 2 * i);
+  EXPECT_EQ(course.message().recent().period_s(), 1);
+  course.take(heat_at(2000, "a", 1));
+  EXPECT_EQ(course.message().job().time_s_size(), 1) << "the same name, from its beginning";
+  EXPECT_EQ(course.message().job().period_s(), 1);
+  course.take(heat_at(2001, "b", 2));
+  EXPECT_EQ(course.message().job().time_s_size(), 1) << "another name";
+  course.take(heat_at(2002, "b", 3));
+  EXPECT_EQ(course.message().job().time_s_size(), 2);
+}
+
+TEST(HeatCourse, TheLastTenMinutesAreInOrderAndNothingElseIsAmongThem) {
+  HeatCourse course;
+  for (int i = 0; i < 1000; ++i) {
+    course.take(heat_at(i));
+    MachineStatus other = heat_at(i);
+    if (i % 2 == 0)
+      other.fans.clear();
+    else
+      other.heaters.pop_back();
+    course.take(other);
+  }
+  const joblink::HeatSamples recent = course.message().recent();
+  ASSERT_EQ(recent.time_s_size(), 600);
+  for (int i = 0; i < 600; ++i) EXPECT_DOUBLE_EQ(recent.time_s(i), 400 + i);
+  EXPECT_EQ(recent.actual_decicelsius_size(), 1200);
+}
+
 TEST(HeatCourse, BeginsWhenWhatItsHeatersMeasureIsKnown) {
   HeatCourse course;
   for (const MachineState state : {MachineState::kOff, MachineState::kBringUp, MachineState::kUnhomed,

@@ -1,6 +1,6 @@
 // How many may be connected, for how long without a word, and that nobody is locked out of a stop.
 
-#include "gateway/sessions/tests/link_rig.hpp"
+#include "gateway/sessions/tests/raw_client.hpp"
 
 namespace kinebus {
 namespace {
@@ -116,6 +116,163 @@ TEST(LinkPlaces, WhenAllPlacesAreTakenEveryoneMayStillStopTheMachine) {
   EXPECT_LE(rig.control.clients().size(), 36U);
   rig.run_until([&] { return late.session->ended(); }, 11s);
   EXPECT_TRUE(late.session->ended());
+}
+
+// Who goes when places are taken, and how many there are.
+
+SessionInfo remote_of(const std::string& peer) {
+  return {.transport = "tcp", .token = {}, .peer = peer, .remote = true};
+}
+void fill(LinkRig& rig, int count, const SessionInfo& info) {
+  for (int i = 0; i < count; ++i) rig.connect("crowd", 0, info);
+}
+/// Greeted `count` times; whether the last one is more than a visitor.
+bool all_are_let_in(LinkRig& rig, int count, const SessionInfo& info) {
+  fill(rig, count - 1, info);
+  return !rig.ask(rig.connect("last", 0, info), take_control(true)).has_error();
+}
+
+TEST(LinkPlaces, ThereAreEightPlacesForAPeerTwentyFourForASideAndThirtyTwoForAll) {
+  for (const bool more : {false, true}) {
+    LinkRig peer;
+    EXPECT_EQ(all_are_let_in(peer, more ? 9 : 8, remote_of("a")), !more);
+    LinkRig side;
+    for (const char* other : {"a", "b", "c"})
+      all_are_let_in(side, other[0] == 'a' && !more ? 7 : 8, remote_of(other));
+    EXPECT_EQ(all_are_let_in(side, 1, remote_of("d")), !more);
+    EXPECT_TRUE(all_are_let_in(side, 8, {})) << "of this computer";
+    EXPECT_FALSE(all_are_let_in(side, 2, {})) << "all are taken";
+    LinkRig here;
+    EXPECT_EQ(all_are_let_in(here, more ? 25 : 24, {}), !more)
+        << "this computer's share of a peer is all of its side's";
+    EXPECT_TRUE(all_are_let_in(here, 8, remote_of("a")));
+    EXPECT_FALSE(all_are_let_in(here, 1, remote_of("b")));
+  }
+}
+
+TEST(LinkPlaces, AStreamThatLastsHasItsPlaceAlways) {
+  LinkRig rig;
+  for (const char* peer : {"a", "b", "c"}) all_are_let_in(rig, 8, remote_of(peer));
+  all_are_let_in(rig, 8, {});
+  const SessionInfo cable{.transport = "usb", .token = {}, .lasting = true};
+  EXPECT_TRUE(all_are_let_in(rig, 1, cable));
+  std::vector<std::unique_ptr<ByteSession>> strangers;
+  for (int i = 0; i < 16; ++i) strangers.push_back(rig.server->open(rig.machine.now, remote_of("x")));
+  const auto more = rig.server->open(rig.machine.now, cable);
+  for (const auto& stranger : strangers) EXPECT_FALSE(stranger->ended()) << "it takes nobody's place";
+}
+
+TEST(LinkPlaces, TheOldestStrangerOfThePeerWithMostOfThemGoes) {
+  LinkRig rig;
+  std::vector<std::unique_ptr<ByteSession>> few, many;
+  for (int i = 0; i < 7; ++i) few.push_back(rig.server->open(rig.machine.now, remote_of("few")));
+  for (int i = 0; i < 9; ++i) many.push_back(rig.server->open(rig.machine.now, remote_of("many")));
+  const auto ended = [](const auto& of) {
+    std::vector<std::size_t> at;
+    for (std::size_t i = 0; i < of.size(); ++i)
+      if (of[i]->ended()) at.push_back(i);
+    return at;
+  };
+  using At = std::vector<std::size_t>;
+  EXPECT_EQ(ended(many), At());
+  few.push_back(rig.server->open(rig.machine.now, remote_of("few")));
+  EXPECT_EQ(ended(many), At{0});
+  // Eight of each: the one whose stranger waits longest.
+  few.push_back(rig.server->open(rig.machine.now, remote_of("few")));
+  EXPECT_EQ(ended(many), At{0});
+  EXPECT_EQ(ended(few), At{0});
+  // Who names no peer is known by its transport.
+  LinkRig other;
+  std::vector<std::unique_ptr<ByteSession>> a, b;
+  for (int i = 0; i < 6; ++i)
+    a.push_back(other.server->open(other.machine.now, {.transport = "a", .token = {}}));
+  for (int i = 0; i < 11; ++i)
+    b.push_back(other.server->open(other.machine.now, {.transport = "b", .token = {}}));
+  EXPECT_EQ(ended(a), At());
+  EXPECT_EQ(ended(b), At{0});
+}
+
+TEST(LinkPlaces, WhoHadControlIsNoVisitorWhenItComesBackAndOnlyOnce) {
+  LinkRig rig;
+  RawClient anna(rig, remote_of("z"));
+  const std::string key = anna.greet(1).hello().resume_key();
+  ASSERT_FALSE(anna.ask(take_control()).has_error());
+  anna.stream->on_closed(rig.machine.now, "unplugged");
+  for (const char* peer : {"a", "b", "c"}) fill(rig, 8, remote_of(peer));
+  RawClient other(rig, remote_of("y")), back(rig, remote_of("z")), again(rig, remote_of("z"));
+  other.greet(1, hello_of({}, "guessed"));
+  EXPECT_EQ(other.ask(take_control()).error().code(), joblink::ERROR_BUSY);
+  EXPECT_EQ(rig.control.holder(), 0U);
+  const auto hello = back.greet(1, hello_of({}, key)).hello();
+  EXPECT_EQ(rig.control.holder(), hello.client_id());
+  EXPECT_FALSE(back.ask(plain(&ClientMessage::mutable_release_control)).has_error());
+  EXPECT_EQ(rig.control.holder(), 0U);
+  again.greet(1, hello_of({}, key));
+  EXPECT_EQ(rig.control.holder(), 0U) << "the key was for once";
+  EXPECT_EQ(again.ask(take_control()).error().code(), joblink::ERROR_BUSY);
+}
+
+TEST(LinkPlaces, AKeyThatNobodyHasGivesNothingAndEndsNobody) {
+  LinkRig rig;
+  RawClient anna(rig), bert(rig), nobody(rig), guesser(rig), stranger(rig);
+  const std::string key = anna.greet(1).hello().resume_key();
+  bert.greet(1);
+  nobody.greet(1, hello_of({}, ""));
+  EXPECT_EQ(rig.control.clients().size(), 3U);
+  EXPECT_FALSE(stranger.stream->ended());
+  ASSERT_FALSE(anna.ask(take_control()).has_error());
+  guesser.greet(1, hello_of({}, key.substr(1)));
+  EXPECT_EQ(rig.control.clients().size(), 4U);
+  EXPECT_NE(rig.control.holder(), 0U);
+  anna.stream->on_closed(rig.machine.now, "unplugged");
+  guesser.greet(2, hello_of({}, key.substr(1)));
+  nobody.greet(2, hello_of({}, ""));
+  EXPECT_EQ(rig.control.holder(), 0U);
+}
+
+TEST(LinkPlaces, AVisitMayStopAskAndWatchAndNothingElseForTenSeconds) {
+  LinkRig rig;
+  all_are_let_in(rig, 8, remote_of("a"));
+  RawClient visitor(rig, remote_of("a"));
+  ASSERT_TRUE(visitor.greet(1).has_hello());
+  ClientMessage watch, chunk, begin;
+  watch.mutable_watch();
+  chunk.mutable_upload_chunk()->set_data("G1");
+  begin.mutable_upload_begin()->set_name("a");
+  for (const ClientMessage& may : {plain(&ClientMessage::mutable_ping), plain(&ClientMessage::mutable_stop),
+                                   plain(&ClientMessage::mutable_get_status), watch})
+    EXPECT_FALSE(visitor.ask(may).has_error());
+  for (const ClientMessage& may_not :
+       {chunk, begin, take_control(), plain(&ClientMessage::mutable_get_machine),
+        plain(&ClientMessage::mutable_list_jobs)})
+    EXPECT_EQ(visitor.ask(may_not).error().code(), joblink::ERROR_BUSY);
+  const BusTime begun = rig.machine.now;
+  while (rig.machine.now < begun + 9s) {
+    rig.machine.run_for(500ms);
+    visitor.say(plain(&ClientMessage::mutable_ping));
+    visitor.stream->on_time(rig.machine.now);
+  }
+  EXPECT_FALSE(visitor.stream->ended());
+  EXPECT_LE(visitor.stream->next_deadline(), begun + 10s);
+  rig.machine.run_for(1s);
+  visitor.hear();
+  visitor.stream->on_time(rig.machine.now);
+  EXPECT_TRUE(visitor.stream->ended());
+  const auto said = visitor.hear();
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_FALSE(said[0].session_end().reason().empty());
+}
+
+TEST(LinkPlaces, OfVisitorsFourAreHereAndTheOldestGoes) {
+  LinkRig rig;
+  all_are_let_in(rig, 8, remote_of("a"));
+  std::vector<std::unique_ptr<RawClient>> visitors;
+  for (int i = 0; i < 5; ++i) {
+    visitors.push_back(std::make_unique<RawClient>(rig, remote_of("a")));
+    visitors.back()->greet(1);
+    EXPECT_EQ(visitors[0]->stream->ended(), i == 4);
+  }
+  for (std::size_t i = 1; i < 5; ++i) EXPECT_FALSE(visitors[i]->stream->ended());
 }
 
 }  // namespace
