@@ -24,6 +24,8 @@ constexpr BusTime kModeTimeout = 3s;
 constexpr BusTime kSettle = 50ms;
 /// A controlword that was lost comes again: a carriage that waits for it would wait for ever.
 constexpr BusTime kRepeatControl = 200ms;
+/// A carriage that is to home, and rests so long, has lost its start: its drive takes none without an edge.
+constexpr BusTime kLostStart = 500ms;
 
 struct Place {
   std::uint8_t order = 1;  ///< of its stage, from 1
@@ -68,7 +70,10 @@ MachineHoming::MachineHoming(const MachineDescription& machine, const homing::Pl
 }
 
 void MachineHoming::start(BusTime now) {
-  for (Axis& axis : axes_) axis.attained = axis.waits = axis.started = false;
+  for (Axis& axis : axes_) {
+    axis.attained = axis.waits = axis.started = axis.lowered = false;
+    axis.rests_since = kMoves;
+  }
   failed_ = unexplained_ = false;
   order_ = 0;
   next_order();
@@ -287,6 +292,7 @@ void MachineHoming::watch(BusTime now) {
     axis->attained =
         (status & cia402::status::kHomingAttained) != 0 && (status & cia402::status::kTargetReached) != 0;
     axis->waits = (status & cia402::status::kHomingWaits) != 0;
+    if (stage_ == Stage::kMove) start_again(*axis, now);
     all = all && axis->attained;
     first = first || axis->waits;
   }
@@ -297,6 +303,26 @@ void MachineHoming::watch(BusTime now) {
     if (now - entered_ >= kSettle) let_leave();
   }
   in_time(now);
+}
+
+/// A controlword or a mode with a wrong bit has taken it out of homing: the bit of its start goes down and
+/// up.
+void MachineHoming::start_again(Axis& axis, BusTime now) {
+  NodeLink& link = links_[axis.node];
+  const bool rests = (link.statusword(axis.axis) & cia402::status::kTargetReached) != 0;
+  if (!rests || axis.attained || axis.waits || link.mode(axis.axis) != kHomingMode)
+    axis.rests_since = kMoves;
+  else
+    axis.rests_since = std::min(axis.rests_since, now);
+  if (axis.lowered && now - axis.rests_since >= kSettle) {
+    link.set_control(axis.axis, kHome | cia402::control::kHomingStay, kHomingMode);
+    axis.lowered = false;
+    axis.rests_since = kMoves;
+  } else if (axis.rests_since != kMoves && now - axis.rests_since >= kLostStart) {
+    link.set_control(axis.axis, cia402::control::kOperation, kHomingMode);
+    axis.lowered = true;
+    axis.rests_since = now;
+  }
 }
 
 Sentence MachineHoming::error_words(const Axis& axis, std::uint16_t status) const {

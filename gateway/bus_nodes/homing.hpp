@@ -68,7 +68,10 @@ class MachineHoming {
     double travel_counts = 0;
     std::int32_t last_counts = 0;
     bool started = false;
+    BusTime rests_since = kMoves;  ///< though it is to home
+    bool lowered = false;          ///< its start, to be raised again
   };
+  static constexpr BusTime kMoves = BusTime::max();
 
   void enter(Stage stage, BusTime now);
   void next_order();
@@ -86,6 +89,7 @@ class MachineHoming {
   bool requests_done();
   void watch(BusTime now);
   void watch_spread();
+  void start_again(Axis& axis, BusTime now);
   void fail(AlarmCode code, std::uint8_t node, Sentence words);
   void let_leave();
 

@@ -124,7 +124,7 @@ class DriveAxis {
   Mode wanted_mode_ = Mode::kNone;
   Source source_ = Source::kProfile;
   Trapezoid profile_;
-  LinearInterpolator line_;
+  LinearInterpolator line_{profile_};  // which plans with it while it is the source
   ProfilePosition profile_position_;
   std::optional<ProfilePosition::SetPoint> runs_;  ///< mode 3: to where, if nobody stops it, and how fast
   bool homing_turn() const {

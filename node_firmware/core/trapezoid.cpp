@@ -110,10 +110,12 @@ std::int64_t estimate_peak(const Problem& p) {
   const std::uint64_t share_q16 = p.to_rest ? (d << 16) / (a + d) : 1u << 16;
   // Velocities in 1/16 counts/s, so squares are in 1/256 and so is the distance.
   const auto v0 = static_cast<std::uint64_t>((p.v0 >> 24) * (kTicksPerSecond * 16) >> 32);
-  const std::uint64_t twice = p.distance >> 23;
   constexpr std::uint64_t kMost = std::uint64_t{1} << 60;
-  if (twice > kMost / mean) return p.vmax;
-  const std::uint64_t peak = square_root(twice * mean + (v0 * v0 >> 16) * share_q16);
+  if (p.distance >> 23 > kMost / mean) return p.vmax;
+  // A part of a count has few bits left after that shift.
+  const bool tiny = p.distance < kOneCount;
+  const std::uint64_t twice = tiny ? p.distance * mean >> 23 : (p.distance >> 23) * mean;
+  const std::uint64_t peak = square_root(twice + (v0 * v0 >> 16) * share_q16);
   return std::min(static_cast<std::int64_t>(peak) * ((std::int64_t{1} << 52) / kTicksPerSecond),
                   std::max(p.vmax, p.v0));
 }

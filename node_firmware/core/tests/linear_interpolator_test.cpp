@@ -26,7 +26,8 @@ TEST(LinearInterpolator, KeepsItsLimitsWhateverIsAskedOfIt) {
       const double even = static_cast<double>(random() >> 11) * 0x1p-53;
       return std::exp(std::log(low) + even * (std::log(high) - std::log(low)));
     };
-    LinearInterpolator line;
+    Trapezoid profile;
+    LinearInterpolator line(profile);
     LinearInterpolator::Limits limits;
     limits.profile = {static_cast<std::uint32_t>(within(100, 1.6e7)),
                       static_cast<std::uint32_t>(within(1e4, 4.2e9)),
@@ -75,7 +76,8 @@ TEST(LinearInterpolator, KeepsItsLimitsWhateverIsAskedOfIt) {
 }
 
 TEST(LinearInterpolator, StandsBetweenEqualSetPointsAndIsNeverLostThen) {
-  LinearInterpolator line;
+  Trapezoid profile;
+  LinearInterpolator line(profile);
   line.hold(from_counts(5));
   const LinearInterpolator::Limits limits{{1000, 1000, 1000}};
   EXPECT_EQ(line.go(100, from_counts(5), 1600, limits), 0);

@@ -57,9 +57,8 @@ TEST_F(DriveTest, ACyclicJumpOfSetPointsIsMadeWithinTheLimitsAndEndsThere) {
       const double speed = (counts() - last) * 1000;
       EXPECT_LE(std::abs(speed), 576'000 * 1.001);
       EXPECT_LE(std::abs(speed - last_speed), 4'000 * 1.01 + 20);
-      // Two SYNC periods of its deceleration: nobody has said that the next set-point is the same.
-      EXPECT_LE(counts(), std::max<double>(from, to) + 32);
-      EXPECT_GE(counts(), std::min<double>(from, to) - 32);
+      EXPECT_LE(counts(), std::max<double>(from, to) + 1);
+      EXPECT_GE(counts(), std::min<double>(from, to) - 1);
       last = counts();
       last_speed = speed;
     });

@@ -107,9 +107,7 @@ TEST_F(LimitsTest, CyclicSetPointsBeyondTheTravelStopAtItsEnds) {
   bench.run(10ms);
   for (const int end : {9'000, -9'000}) {
     bench.write(kId, 0x607A, 0, 4, end);
-    // Two SYNC periods of its greatest deceleration more: nobody has said that the next set-point is the
-    // same.
-    bench.run(1500ms, 1ms, [&] { EXPECT_LE(std::abs(counts()), 5'052); });
+    bench.run(1500ms, 1ms, [&] { EXPECT_LE(std::abs(counts()), 5'001); });
     EXPECT_EQ(bench.read(kId, 0x6064, 0), end / 9 * 5);
     EXPECT_TRUE(status() & (1 << 11)) << "it says that it is limited";
   }

@@ -57,6 +57,7 @@ TEST(Campaign, SeedsThatOnceFailedAreGood) {
       {FaultKind::kReceiveOverrun, 69},       // the stop that was named lay in the past
       {FaultKind::kBabblerAbove, 1707},       // the next run was begun before the nodes had ended the last
       {FaultKind::kFramesCorrupted, 109},     // a rate command with a wrong bit was obeyed
+      {FaultKind::kFramesCorrupted, 1254},    // homing was over for a carriage, and not begun again
       {FaultKind::kSwitchesExchanged, 1466},  // home was taken from the other carriage's switch
       {FaultKind::kGatewayDies, 546},         // in homing: carriages went on for 0.8 s
       {FaultKind::kNodeDies, 382},            // in homing: so did those of the others
