@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gateway/kinematics/kinematics.hpp"
+#include "gateway/motion/joint_span.hpp"
 #include "gateway/motion/trajectory.hpp"
 
 namespace kinebus::testing {
