@@ -1,6 +1,5 @@
 #include "gateway/io/stream_hub.hpp"
 
-#include <poll.h>
 #include <sys/epoll.h>
 #include <unistd.h>
 
@@ -59,8 +58,13 @@ struct StreamHub::Pair {
 StreamHub::StreamHub(EventLoop& loop) : StreamHub(loop, Options()) {}
 
 StreamHub::StreamHub(EventLoop& loop, Options options)
-    : loop_(loop), options_(options), epoll_(::epoll_create1(EPOLL_CLOEXEC)), credit_(options.burst) {
-  if (epoll_ < 0) throw std::system_error(errno, std::generic_category(), "streams");
+    : loop_(loop),
+      options_(options),
+      epoll_(::epoll_create1(EPOLL_CLOEXEC)),
+      glance_(::epoll_create1(EPOLL_CLOEXEC)),
+      credit_(options.burst) {
+  if (epoll_ < 0 || glance_ < 0) throw std::system_error(errno, std::generic_category(), "streams");
+  set_interest(glance_, EPOLL_CTL_ADD, epoll_, EPOLLIN, nullptr);
   loop_.watch(epoll_, EPOLLIN, [this](std::uint32_t) { on_some_ready(); });
 }
 
@@ -68,6 +72,7 @@ StreamHub::~StreamHub() {
   for (const auto& pair : pairs_)
     if (!pair->closed) close(*pair, "the gateway ends");
   loop_.forget(epoll_);
+  ::close(glance_);
   ::close(epoll_);
 }
 
@@ -145,8 +150,8 @@ void StreamHub::sort_into_lanes() {
 
 /// True: it had something to do. Until then its turn has not begun.
 bool StreamHub::looked_at() {
-  pollfd all{.fd = epoll_, .events = POLLIN, .revents = 0};
-  if (rest_until_ != LocalTime{0} || ::poll(&all, 1, 0) < 1) return false;
+  epoll_event event{};
+  if (rest_until_ != LocalTime{0} || ::epoll_wait(glance_, &event, 1, 0) < 1) return false;
   const LocalTime used = used_;
   on_some_ready();
   return used_ != used;

@@ -112,7 +112,8 @@ class StreamHub : public DaemonPart, private WorkGate {
 
   EventLoop& loop_;
   Options options_;
-  int epoll_;  ///< of all streams: the loop looks at this one, and not while they rest
+  int epoll_;   ///< of all streams: the loop looks at this one, and not while they rest
+  int glance_;  ///< of that one: whether it has any, without changing whose turn is next
   std::vector<std::unique_ptr<Pair>> pairs_;
   std::vector<int> doors_;
   std::array<std::unique_ptr<StreamHub>, kRanks> lanes_;  ///< by rank
