@@ -114,4 +114,10 @@ struct Bench {
   }
 };
 
+inline AxisConfig with(EncoderMode mode) {
+  AxisConfig config = Bench::standard();
+  config.encoder = mode;
+  return config;
+}
+
 }  // namespace kinebus::motor
