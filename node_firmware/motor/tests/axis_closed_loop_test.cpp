@@ -1,5 +1,4 @@
-// What the control makes of its encoder: where the rotor is taken to be, what is told as lost, how the loop
-// is closed.
+// The loop closed by the encoder: the rotor is brought to its command, and what would only disturb is left.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,4 @@
-// What the control makes of its encoder: where the rotor is taken to be, what is told as lost, how the loop
-// is closed.
+// What the control makes of its encoder: where the rotor is taken to be, and what is told as lost.
 
 #include <gtest/gtest.h>
 
