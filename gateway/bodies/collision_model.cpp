@@ -8,6 +8,8 @@ namespace kinebus::bodies {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
+// What rounding may add to a body's motion from one pose to the next, with room.
+constexpr double kMoved_mm = 1e-9;
 
 /// Pairs whose bodies may touch at work.
 bool at_work(BodyKind a, BodyKind b) {
@@ -132,9 +134,29 @@ std::optional<Clearance> CollisionModel::clearance(Frame frame, const Pose& pose
   return clearance(scene, occasion);
 }
 
+void CollisionModel::carry_on(Memory& memory, const Scene& scene) const {
+  if (memory.apart_mm.size() != pairs_.size()) {
+    memory.planes.assign(pairs_.size(), {});
+    memory.apart_mm.assign(pairs_.size(), -kInfinite);
+    memory.witness.resize(bodies_.size());
+  }
+  std::array<double, kMostBodies> moved_mm{};
+  const double turned = std::abs(scene.tilt_rad - memory.tilt_rad);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!bodies_[i].moves()) continue;
+    auto& last = memory.witness[i];
+    const Vec p = scene.witness[i][0] - last[0], q = scene.witness[i][1] - last[1];
+    moved_mm[i] = std::sqrt(std::max(dot(p, p), dot(q, q))) + turned * bodies_[i].lever_mm + kMoved_mm;
+    last = scene.witness[i];
+  }
+  memory.tilt_rad = scene.tilt_rad;
+  for (std::size_t k = 0; k < pairs_.size(); ++k)
+    memory.apart_mm[k] -= moved_mm[pairs_[k].first] + moved_mm[pairs_[k].second];
+}
+
 Clearance CollisionModel::clearance(const Scene& scene, Occasion occasion, Memory* before) const {
   constexpr double kAbove_mm = 1e-6;
-  if (before != nullptr) before->planes.resize(pairs_.size());
+  if (before != nullptr) carry_on(*before, scene);
   Clearance best{.mm = kInfinite};
   std::size_t nearest = pairs_.size();
   const auto look = [&](std::size_t k) {
@@ -142,10 +164,20 @@ Clearance CollisionModel::clearance(const Scene& scene, Occasion occasion, Memor
     if (pair.homing_only && occasion != Occasion::kHoming) return;
     // Of pairs as near as each other the first counts, in whatever order they are looked at.
     const auto farther = [&](double mm) { return mm > best.mm || (mm == best.mm && k >= nearest); };
-    if (farther(least_distance(scene, pair))) return;
-    if (before != nullptr && gap_along(scene, pair, before->planes[k]) > best.mm + kAbove_mm) return;
+    if (before != nullptr && before->apart_mm[k] > best.mm + kAbove_mm) return;
+    const double least = least_distance(scene, pair);
+    if (before != nullptr) before->apart_mm[k] = std::max(before->apart_mm[k], least);
+    if (farther(least)) return;
+    if (before != nullptr) {
+      const double gap = gap_along(scene, pair, before->planes[k]);
+      before->apart_mm[k] = std::max(before->apart_mm[k], gap);
+      if (gap > best.mm + kAbove_mm) return;
+    }
     const Parting parting = part(scene, pair, best.mm);
-    if (before != nullptr) before->planes[k] = parting.axis;
+    if (before != nullptr) {
+      before->planes[k] = parting.axis;
+      before->apart_mm[k] = std::max(before->apart_mm[k], parting.mm);
+    }
     double mm = parting.mm;
     if (mm == best.mm) mm = distance(scene, pair);
     if (farther(mm)) return;

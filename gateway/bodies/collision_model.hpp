@@ -93,11 +93,15 @@ class CollisionModel {
   std::optional<Clearance> clearance(Frame frame, const Pose& pose,
                                      Occasion occasion = Occasion::kMotion) const;
   /// Of the pose before, which says nothing wrong of any other: the index in pairs() of the nearest pair,
-  /// which is looked at first and mostly is it again, and for each pair a plane that parted both, which
-  /// mostly still says that they are farther. Empty: nothing is known yet.
+  /// which is looked at first and mostly is it again, and for each pair a plane that parted both and how far
+  /// they were apart at least, less what both have moved since: one of these mostly still says that they are
+  /// farther. Empty: nothing is known yet. It belongs to one model.
   struct Memory {
     std::size_t likely = 0;
     std::vector<Vec> planes{};
+    std::vector<double> apart_mm{};
+    std::vector<std::array<Vec, 2>> witness{};  ///< of the bodies, at that pose
+    double tilt_rad = 0;
   };
   /// The same for bodies that are placed already.
   Clearance clearance(const Scene& scene, Occasion occasion = Occasion::kMotion,
@@ -167,6 +171,8 @@ class CollisionModel {
   static constexpr double kRounding_mm = 0.01;
   using Two = std::array<std::size_t, 2>;
   static bool among(const std::vector<Two>& list, std::size_t a, std::size_t b);
+  /// Takes from what pairs were apart what their bodies have moved.
+  void carry_on(Memory& memory, const Scene& scene) const;
 
   Scene rest_{};
   std::size_t shapes_ = 0;
