@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/stream/both_axes.hpp"
+
 namespace kinebus {
 
 /// Where a cubic is farthest from zero, and its value there.
@@ -32,13 +34,13 @@ inline Extreme extreme_of_cubic(double d0, double d1, double d2, double d3, doub
   return worst;
 }
 
-/// An upper bound of the same, by the Bernstein coefficients: no root, no division.
-inline double bound_of_cubic(double d0, double d1, double d2, double d3, double x0, double x1) {
+/// An upper bound of the same for each of two cubics, by the Bernstein coefficients: no root, no division.
+inline Both bound_of_cubics(Both d0, Both d1, Both d2, Both d3, double x0, double x1) {
   const double third = (x1 - x0) * (1.0 / 3);
-  const double b0 = d0 + x0 * (d1 + x0 * (d2 + x0 * d3)), b3 = d0 + x1 * (d1 + x1 * (d2 + x1 * d3));
-  const double b1 = b0 + third * (d1 + x0 * (2 * d2 + x0 * 3 * d3));
-  const double b2 = b3 - third * (d1 + x1 * (2 * d2 + x1 * 3 * d3));
-  return std::max(std::max(std::abs(b0), std::abs(b3)), std::max(std::abs(b1), std::abs(b2)));
+  const Both b0 = d0 + x0 * (d1 + x0 * (d2 + x0 * d3)), b3 = d0 + x1 * (d1 + x1 * (d2 + x1 * d3));
+  const Both b1 = b0 + third * (d1 + x0 * (2 * d2 + x0 * 3 * d3));
+  const Both b2 = b3 - third * (d1 + x1 * (2 * d2 + x1 * 3 * d3));
+  return greater(greater(magnitude(b0), magnitude(b3)), greater(magnitude(b1), magnitude(b2)));
 }
 
 }  // namespace kinebus

@@ -70,78 +70,74 @@ double Segmenter::next_units(double t, std::size_t index, double most) const {
   return most;
 }
 
-Segmenter::Miss Segmenter::miss(std::size_t axis, double h, double next, std::size_t index) const {
-  const Axis& a = at_.axes[axis];
+Segmenter::Miss Segmenter::miss(double h, double next, std::size_t index) const {
   const double t = static_cast<double>(at_.knot) + h;
   const Piece& p = piece(index);
-  const auto& c = p.c[axis];
   const double x = t - p.start;
-  const double q = c[0] + x * (c[1] + x * (c[2] + x * c[3]));
-  const double q1 = c[1] + x * (2 * c[2] + x * 3 * c[3]);
+  const Both q = p.at(x), q1 = p.slope(x);
   // The velocity error at this knot that splits the next segment's error evenly: M next^2 / 12 for a cubic.
-  double wanted = 0.5 * c[3] * next * next;
+  Both wanted = 0.5 * p.c[3] * next * next;
   if (t + next > p.end + 1) {
     const Piece& e = piece(piece_at(t + next, index));
-    const auto& d = e.c[axis];
     const double y = t + next - e.start;
-    const double qn = d[0] + y * (d[1] + y * (d[2] + y * d[3]));
-    const double qn1 = d[1] + y * (2 * d[2] + y * 3 * d[3]);
-    wanted = 0.5 * (q1 + qn1) - (qn - q) / next;
+    wanted = 0.5 * (q1 + e.slope(y)) - (e.at(y) - q) / next;
   }
-  return {q - a.p - a.v * h, q1 - a.v - wanted, c[2] + 3 * c[3] * x};
+  return {q - at_.p - at_.v * h, q1 - at_.v - wanted, p.half_bend(x)};
 }
 
 /// kRest: velocity 0 at the end. kHalfway: this and one more segment bring position and velocity to the run's
 /// end.
-double Segmenter::resting_acceleration(std::size_t axis, double h, Goal goal) const {
-  const Axis& a = at_.axes[axis];
-  if (goal == Goal::kRest) return -0.5 * a.v / h;
+Both Segmenter::resting_acceleration(double h, Goal goal) const {
+  if (goal == Goal::kRest) return -0.5 * at_.v / h;
   const double whole = std::max(std::ceil(run_end_ - static_cast<double>(at_.knot) - 1e-6), h + 1);
-  const double missing = piece(count() - 1).c[axis][0] - a.p - a.v * whole;
-  return (missing + 0.5 * (whole - h) * a.v) / (h * whole);
+  const Both missing = piece(count() - 1).c[0] - at_.p - at_.v * whole;
+  return (missing + 0.5 * (whole - h) * at_.v) / (h * whole);
 }
 
 /// How far an acceleration may leave those of the motion, which reach `most`.
-double Segmenter::spare(std::size_t axis, double most) const {
-  const double limit = at_.axes[axis].limit;
-  if (limit <= 0) return kForever;
-  if (most > kOverLimit * limit) return kOverLimitWidening * limit;
-  return std::max(kRoomShare * (limit - most), kLeastWidening * limit);
+Both Segmenter::spare(Both most) const {
+  const Both room = greater(kRoomShare * (axes_.limit - most), kLeastWidening * axes_.limit);
+  return most > kOverLimit * axes_.limit ? kOverLimitWidening * axes_.limit : room;
 }
 
 /// Where an acceleration may lie: in what q''/2 does on the way, and a part of what is left to the limit.
-Segmenter::Bounds Segmenter::bounds(std::size_t axis, double h, std::size_t last) const {
-  if (at_.axes[axis].limit <= 0) return {-kForever, kForever};
+Segmenter::Bounds Segmenter::bounds(double h, std::size_t last) const {
   const double knot = static_cast<double>(at_.knot);
-  Bounds b{kForever, -kForever};
+  Bounds b{both(kForever), both(-kForever)};
   for (std::size_t i = 0; i <= last; ++i) {
     const Piece& p = piece(i);
-    const auto& c = p.c[axis];
     const double x0 = std::max(knot - p.start, 0.0), x1 = std::min(knot + h, p.end) - p.start;
-    const double a0 = c[2] + 3 * c[3] * x0, a1 = c[2] + 3 * c[3] * x1;
-    b.low = std::min(b.low, std::min(a0, a1));
-    b.high = std::max(b.high, std::max(a0, a1));
+    const Both a0 = p.half_bend(x0), a1 = p.half_bend(x1);
+    b.low = lesser(b.low, lesser(a0, a1));
+    b.high = greater(b.high, greater(a0, a1));
   }
-  const double wider = spare(axis, std::max(std::abs(b.low), std::abs(b.high)));
+  const Both wider = spare(greater(magnitude(b.low), magnitude(b.high)));
   return {b.low - wider, b.high + wider};
 }
 
 /// Largest q - p - v t - a t^2 over the segment, piece by piece; x: units from the knot. Exact where it is
 /// above kTouch tolerances; below, an upper bound.
-Extreme Segmenter::error_over(std::size_t axis, double a, double h, std::size_t last) const {
-  const Axis& s = at_.axes[axis];
-  const double knot = static_cast<double>(at_.knot), enough = kTouch * s.tolerance;
-  Extreme worst;
+Segmenter::Worst Segmenter::error_over(Both a, double h, std::size_t last) const {
+  const double knot = static_cast<double>(at_.knot);
+  const Both enough = kTouch * at_.tolerance;
+  Worst worst;
   for (std::size_t i = 0; i <= last; ++i) {
     const Piece& p = piece(i);
-    const auto& c = p.c[axis];
     const double t = p.start - knot;  // the quadratic, expanded about the piece's start
     const double x0 = std::max(-t, 0.0), x1 = std::min(h - t, p.end - p.start);
     if (x1 < x0) continue;
-    const double d0 = c[0] - s.p - t * (s.v + a * t), d1 = c[1] - s.v - 2 * a * t, d2 = c[2] - a, d3 = c[3];
-    const double bound = bound_of_cubic(d0, d1, d2, d3, x0, x1);
-    const Extreme e = bound <= enough ? Extreme{0, bound} : extreme_of_cubic(d0, d1, d2, d3, x0, x1);
-    if (std::abs(e.value) > std::abs(worst.value)) worst = {e.x + t, e.value};
+    const Both d0 = p.c[0] - at_.p - t * (at_.v + a * t), d1 = p.c[1] - at_.v - 2 * a * t, d2 = p.c[2] - a,
+               d3 = p.c[3];
+    Worst here{Both{}, bound_of_cubics(d0, d1, d2, d3, x0, x1)};
+    if (const BothBits small = here.value <= enough; !all(small))
+      for (int k = 0; k < 2; ++k) {
+        if (small[k]) continue;
+        const Extreme e = extreme_of_cubic(d0[k], d1[k], d2[k], d3[k], x0, x1);
+        here.x[k] = e.x;
+        here.value[k] = e.value;
+      }
+    const BothBits worse = magnitude(here.value) > magnitude(worst.value);
+    worst = {worse ? here.x + t : worst.x, worse ? here.value : worst.value};
   }
   return worst;
 }
@@ -158,53 +154,63 @@ Segmenter::Fit Segmenter::fit(std::int32_t units, Goal goal) {
     const double weight = std::clamp(target.next * h * target.per_h2, kLeastNext, kMostNext);
     target.velocity_share = 0.5 * weight * weight * h;
     target.scale = target.per_h2 / (1 + weight * weight);
+    fit_run_on(target, f);
+  } else {
+    fit_rest(target, f);
   }
-  for (std::size_t i = 0; i < at_.axes.size(); ++i) fit_axis(i, target, f);
   f.score = std::max(f.error, f.drift / (eased_ ? kMostEasedDrift : kMostDrift));
   return f;
 }
 
-void Segmenter::fit_axis(std::size_t axis, const Target& target, Fit& f) const {
-  const Axis& state = at_.axes[axis];
+/// The acceleration that comes nearest to this one, as whole numbers in `f`.
+Both Segmenter::accelerate(Both wanted, Fit& f) const {
+  const Both raw =
+      clamped(wanted * raw_per_unit_, both(-kMaxSegmentAcceleration), both(kMaxSegmentAcceleration));
+  const Both rounded = raw + with_sign_of(both(0.5), raw);
+  f.acceleration = {static_cast<std::int32_t>(rounded[0]), static_cast<std::int32_t>(rounded[1])};
+  return Both{static_cast<double>(f.acceleration[0]), static_cast<double>(f.acceleration[1])} * unit_per_raw_;
+}
+
+void Segmenter::fit_rest(const Target& target, Fit& f) const {
   const double h = f.units;
-  const Bounds bound = bounds(axis, h, target.covered);
-  Miss m;
-  double a = 0;
-  Extreme worst;
-  // The acceleration nearest to `wanted` that ends within this share of the tolerance.
-  const auto end_within = [&](double share, double wanted) {
-    const double most = share * state.base_tolerance;
-    return std::clamp(wanted, (m.position - most) * target.per_h2, (m.position + most) * target.per_h2);
+  const Bounds bound = bounds(h, target.covered);
+  const Both a = resting_acceleration(h, target.goal);
+  if (any((a < bound.low) | (a > bound.high))) f.error = kImpossible;
+  const Worst worst = error_over(accelerate(a, f), h, target.covered);
+  f.error = std::max(f.error, greatest(magnitude(worst.value) * at_.per_tolerance));
+}
+
+void Segmenter::fit_run_on(const Target& target, Fit& f) const {
+  const double h = f.units;
+  const Bounds bound = bounds(h, target.covered);
+  const Miss m = miss(h, target.next, target.last);
+  // The acceleration nearest to `wanted` that is within bounds, and ends within this share of the tolerance
+  // where that leaves a choice.
+  const auto within = [&](double share, Both wanted) {
+    const Both most = share * axes_.tolerance;
+    const Both ending =
+        clamped(wanted, (m.position - most) * target.per_h2, (m.position + most) * target.per_h2);
+    return clamped(ending, bound.low, bound.high);
   };
-  const auto apply = [&](double wanted) {
-    const double raw =
-        std::clamp<double>(wanted * raw_per_unit_, -kMaxSegmentAcceleration, kMaxSegmentAcceleration);
-    f.acceleration[axis] = static_cast<std::int32_t>(raw + std::copysign(0.5, raw));
-    a = f.acceleration[axis] * unit_per_raw_;
-    worst = error_over(axis, a, h, target.covered);
-  };
-  if (target.goal != Goal::kRunOn) {
-    a = resting_acceleration(axis, h, target.goal);
-    if (a < bound.low || a > bound.high) f.error = kImpossible;
-    apply(a);
-    f.error = std::max(f.error, std::abs(worst.value) * state.per_tolerance);
-    return;
-  }
   // Least r^2 + rho^2 w^2 at the end, rho = next / 2. rho = h / 2 takes an error back in two segments.
-  m = miss(axis, h, target.next, target.last);
-  const double best = (m.position + target.velocity_share * m.velocity) * target.scale;
-  apply(bound.clamp(end_within(kMostEndError, best)));
-  const double excess = std::abs(worst.value) - kTouch * state.tolerance;
-  if (excess > 0 && excess < kRepairable * state.tolerance && worst.x > kRepairFrom * h) {
-    const double repaired = a + std::copysign(excess, worst.value) / (worst.x * worst.x);
-    apply(bound.clamp(end_within(kMostRepairedEndError, repaired)));
+  const Both best = (m.position + target.velocity_share * m.velocity) * target.scale;
+  const Both wanted = within(kMostEndError, best);
+  Both a = accelerate(wanted, f);
+  Worst worst = error_over(a, h, target.covered);
+  const Both excess = magnitude(worst.value) - kTouch * at_.tolerance;
+  if (const BothBits repairable =
+          (excess > 0) & (excess < kRepairable * at_.tolerance) & (worst.x > kRepairFrom * h);
+      any(repairable)) {
+    const Both repaired = a + with_sign_of(magnitude(excess), worst.value) / (worst.x * worst.x);
+    a = accelerate(repairable ? within(kMostRepairedEndError, repaired) : wanted, f);
+    worst = error_over(a, h, target.covered);
   }
-  const double r = m.position - a * h * h, w = m.velocity - 2 * a * h;
-  f.error = std::max(f.error, std::max(std::abs(worst.value), std::abs(r)) * state.per_tolerance);
+  const Both r = m.position - a * h * h, w = m.velocity - 2 * a * h;
+  f.error = greatest(greater(magnitude(worst.value), magnitude(r)) * at_.per_tolerance);
   // What there is to spare of acceleration must be able to brake w before it leaves the tolerance.
-  const double braked = std::copysign(1.0, w) * r + w * w / (4 * spare(axis, std::abs(m.bend)));
-  const double cost = std::max(std::abs(r) + kVelocityCost * std::min(h, target.next) * std::abs(w), braked);
-  f.drift = std::max(f.drift, cost * state.per_base_tolerance);
+  const Both braked = with_sign_of(both(1), w) * r + w * w / (4 * spare(magnitude(m.bend)));
+  const Both cost = greater(magnitude(r) + kVelocityCost * std::min(h, target.next) * magnitude(w), braked);
+  f.drift = greatest(cost * axes_.per_tolerance);
 }
 
 }  // namespace kinebus

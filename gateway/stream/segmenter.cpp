@@ -25,14 +25,15 @@ Segmenter::Segmenter(const NodeAxes& node, Options options)
       raw_per_unit_(kCountFraction / static_cast<double>(1 << options.acceleration_shift)),
       unit_per_raw_(1 / raw_per_unit_),
       pieces_(kCapacity) {
-  for (std::size_t i = 0; i < at_.axes.size(); ++i) {
+  for (std::size_t i = 0; i < kAxesPerNode; ++i) {
     const AxisScaling& scaling = node.axes[i];
-    at_.axes[i].base_tolerance =
+    axes_.tolerance[i] =
         std::max(scaling.tolerance_counts - options.margin_counts, 0.5 * scaling.tolerance_counts);
-    at_.axes[i].per_base_tolerance = 1 / at_.axes[i].base_tolerance;
+    axes_.per_tolerance[i] = 1 / axes_.tolerance[i];
     slope_[i] = scaling.slope();
-    at_.axes[i].limit =
+    const double limit =
         0.5 * std::abs(scaling.slope()) * scaling.acceleration_limit * kSecondsPerUnit * kSecondsPerUnit;
+    axes_.limit[i] = limit > 0 ? limit : kForever;
   }
 }
 
@@ -45,32 +46,28 @@ void Segmenter::start(const std::array<AxisState, kAxesPerNode>& states) {
   links_ = 0;
   eased_ = false;
   complete_ = ended_ = false;
-  for (std::size_t i = 0; i < at_.axes.size(); ++i) {
-    at_.axes[i].p = to_counts(states[i].position);
-    at_.axes[i].v = 0;
-    widen(at_.axes[i], 0);
-  }
+  at_.p = Both{to_counts(states[0].position), to_counts(states[1].position)};
+  at_.v = Both{};
+  widen(Both{});
 }
 
-/// The tolerance, while the state at the knot is `offset` counts off.
-void Segmenter::widen(Axis& axis, double offset) {
-  if (offset <= axis.base_tolerance) {
-    axis.tolerance = axis.base_tolerance;
-    axis.per_tolerance = axis.per_base_tolerance;
-  } else {
-    axis.tolerance = 1.1 * offset;
-    axis.per_tolerance = 1 / axis.tolerance;
-  }
+/// The tolerances, while the state at the knot is `offset` counts off.
+void Segmenter::widen(Both offset) {
+  at_.tolerance = axes_.tolerance;
+  at_.per_tolerance = axes_.per_tolerance;
+  const BothBits within = offset <= axes_.tolerance;
+  for (int i = 0; i < 2; ++i)
+    if (!within[i]) {
+      at_.tolerance[i] = 1.1 * offset[i];
+      at_.per_tolerance[i] = 1 / at_.tolerance[i];
+    }
 }
 
 void Segmenter::append(const Piece& next) {
   if (count() > 0) {
     Piece& before = place(count() - 1);
     const double d = before.end - before.start;
-    before.jump = 0;
-    for (std::size_t i = 0; i < at_.axes.size(); ++i)
-      before.jump = std::max(before.jump, std::abs(next.c[i][2] - before.c[i][2] - 3 * before.c[i][3] * d) *
-                                              at_.axes[i].per_base_tolerance);
+    before.jump = greatest(magnitude(next.c[2] - before.half_bend(d)) * axes_.per_tolerance);
   }
   ++pushed_;
   place(count() - 1) = next;
@@ -83,33 +80,32 @@ void Segmenter::push(const JointSpan& span) {
   p.start = span.start_s * per_u;
   p.end = (span.start_s + span.duration_s) * per_u;
   p.line = span.line;
-  for (std::size_t i = 0; i < at_.axes.size(); ++i) {
+  for (std::size_t i = 0; i < kAxesPerNode; ++i) {
     const AxisScaling& scaling = node_.axes[i];
     if (scaling.joint < 0) {
-      p.c[i] = {to_counts(at_.states[i].position), 0, 0, 0};
+      p.c[0][i] = to_counts(at_.states[i].position);
       continue;
     }
     const auto& c = span.coefficients[static_cast<std::size_t>(scaling.joint)];
     const double k = slope_[i];
-    p.c[i] = {k * (c[0] - scaling.offset), k * u * c[1], k * u * u * c[2], k * u * u * u * c[3]};
-    p.bend = std::max(p.bend, std::abs(p.c[i][3]) * at_.axes[i].per_base_tolerance);
+    p.c[0][i] = k * (c[0] - scaling.offset);
+    p.c[1][i] = k * u * c[1];
+    p.c[2][i] = k * u * u * c[2];
+    p.c[3][i] = k * u * u * u * c[3];
   }
-  if (count() == 0 && at_.knot == 0)
-    for (std::size_t i = 0; i < at_.axes.size(); ++i) {
-      const double offset = std::abs(p.c[i][0] - at_.axes[i].p);
-      start_offset_ = std::max(start_offset_, offset);
-      widen(at_.axes[i], offset);
-    }
+  p.bend = greatest(magnitude(p.c[3]) * axes_.per_tolerance);
+  if (count() == 0 && at_.knot == 0) {
+    const Both offset = magnitude(p.c[0] - at_.p);
+    start_offset_ = std::max(start_offset_, greatest(offset));
+    widen(offset);
+  }
   eased_ = eased_ || span.eased;
   append(p);
   if (!span.last) return;
   complete_ = true;
   run_end_ = p.end;
   Piece rest{.start = p.end, .end = kForever, .line = span.line};
-  for (std::size_t i = 0; i < at_.axes.size(); ++i) {
-    const double d = p.end - p.start;
-    rest.c[i][0] = p.c[i][0] + d * (p.c[i][1] + d * (p.c[i][2] + d * p.c[i][3]));
-  }
+  rest.c[0] = p.at(p.end - p.start);
   append(rest);
 }
 
@@ -159,19 +155,12 @@ double Segmenter::steadied(double h) const {
   const Piece& p = piece(0);
   const Piece& e = piece(piece_at(knot + h, 0));
   const double x = knot - p.start, y = knot + h - e.start;
-  double steady = 0, now = 0;  // of the axis that bends more, in tolerances
-  double left = 0;             // of the axis that is off more
-  for (std::size_t i = 0; i < at_.axes.size(); ++i) {
-    const auto& c = p.c[i];
-    const auto& d = e.c[i];
-    const double q = c[0] + x * (c[1] + x * (c[2] + x * c[3])), q1 = c[1] + x * (2 * c[2] + x * 3 * c[3]);
-    const double r = d[0] + y * (d[1] + y * (d[2] + y * d[3])), r1 = d[1] + y * (2 * d[2] + y * 3 * d[3]);
-    const double wanted = (0.5 * (q1 + r1) - (r - q) / h) / at_.axes[i].base_tolerance;
-    left = std::max(left, std::abs(q1 - at_.axes[i].v) * at_.axes[i].per_base_tolerance);
-    if (std::abs(wanted) <= std::abs(steady)) continue;
-    steady = wanted;
-    now = (q1 - at_.axes[i].v) / at_.axes[i].base_tolerance;
-  }
+  const Both q = p.at(x), q1 = p.slope(x), off = q1 - at_.v;
+  const Both wanted = (0.5 * (q1 + e.slope(y)) - (e.at(y) - q) / h) / axes_.tolerance;
+  const double left = greatest(magnitude(off) * axes_.per_tolerance);  // of the axis that is off more
+  // Of the axis that bends more, in tolerances.
+  const int bends = std::abs(wanted[1]) > std::abs(wanted[0]) ? 1 : 0;
+  const double steady = wanted[bends], now = off[bends] / axes_.tolerance[bends];
   if (eased_ && std::abs(steady) * h < kStraight) return std::min(h, kTakenBack / left);
   if (std::abs(steady) * h < 1) return h;
   return h * std::sqrt(std::clamp(0.5 + 0.5 * now / steady, 0.15, 1.2));
@@ -294,14 +283,12 @@ void Segmenter::apply(const Fit& f) {
   const std::size_t last = piece_at(static_cast<double>(at_.knot), 0);
   const Piece& p = piece(last);
   const double x = static_cast<double>(at_.knot) - p.start;
-  for (std::size_t i = 0; i < at_.axes.size(); ++i) {
+  for (std::size_t i = 0; i < kAxesPerNode; ++i) {
     at_.states[i] = advance(at_.states[i], f.acceleration[i], f.units, options_.acceleration_shift);
-    Axis& a = at_.axes[i];
-    a.p = to_counts(at_.states[i].position);
-    a.v = to_counts(at_.states[i].velocity);
-    const double q = p.c[i][0] + x * (p.c[i][1] + x * (p.c[i][2] + x * p.c[i][3]));
-    widen(a, std::abs(q - a.p));
+    at_.p[i] = to_counts(at_.states[i].position);
+    at_.v[i] = to_counts(at_.states[i].velocity);
   }
+  widen(magnitude(p.at(x) - at_.p));
   at_.first += last;
 }
 
@@ -326,7 +313,7 @@ FittedSegment Segmenter::emit(const Fit& f) {
 std::optional<FittedSegment> Segmenter::settle() {
   Fit f{.units = 1};
   bool moving = false;
-  for (std::size_t i = 0; i < at_.axes.size(); ++i) {
+  for (std::size_t i = 0; i < kAxesPerNode; ++i) {
     const std::int64_t raw = at_.states[i].velocity >> (options_.acceleration_shift + 1);
     if (std::abs(raw) > kMaxSegmentUnits) return std::nullopt;
     f.acceleration[i] = static_cast<std::int32_t>(-raw);

@@ -11,6 +11,7 @@
 
 #include "gateway/motion/joint_span.hpp"
 #include "gateway/stream/axis_scaling.hpp"
+#include "gateway/stream/both_axes.hpp"
 #include "gateway/stream/cubic_error.hpp"
 #include "protocol/motion/segment.hpp"
 
@@ -72,17 +73,19 @@ class Segmenter {
   /// One cubic on both axes: counts, as powers of units since `start`.
   struct Piece {
     double start = 0, end = 0;  ///< units since the run's start
-    std::array<std::array<double, 4>, kAxesPerNode> c{};
+    std::array<Both, 4> c{};
     double bend = 0;  ///< |c3| / tolerance, worse axis: what a constant acceleration misses
     double jump = 0;  ///< jump of q''/2 at its end / tolerance, worse axis
     std::uint32_t line = 0;
+
+    Both at(double x) const { return c[0] + x * (c[1] + x * (c[2] + x * c[3])); }
+    Both slope(double x) const { return c[1] + x * (2 * c[2] + x * 3 * c[3]); }
+    Both half_bend(double x) const { return c[2] + 3 * c[3] * x; }
   };
-  struct Axis {
-    double p = 0, v = 0;  ///< exact state at the knot as counts and counts/unit
-    double base_tolerance = 0.47;
-    double tolerance = 0.47;  ///< base, or wider while the state at the knot is out of it
-    double per_base_tolerance = 0, per_tolerance = 0;
-    double limit = 0;  ///< of q''/2, counts/unit^2; 0: none
+  /// What does not change during a run.
+  struct Axes {
+    Both tolerance{}, per_tolerance{};
+    Both limit{};  ///< of q''/2, counts/unit^2; infinite: none
   };
   /// A segment on trial.
   struct Fit {
@@ -114,21 +117,26 @@ class Segmenter {
     double velocity_share = 0, scale = 0;  ///< a = (position + velocity_share * velocity) * scale
   };
   struct Bounds {
-    double low = 0, high = 0;
-    double clamp(double a) const { return a < low ? low : a > high ? high : a; }
+    Both low{}, high{};
   };
-  /// An axis at the end of a segment without acceleration: what is missing in position, and in velocity
+  /// The axes at the end of a segment without acceleration: what is missing in position, and in velocity
   /// against the best start of the next segment.
   struct Miss {
-    double position = 0, velocity = 0;
-    double bend = 0;  ///< q''/2 there
+    Both position{}, velocity{};
+    Both bend{};  ///< q''/2 there
+  };
+  /// Where each axis is farthest from what it should be.
+  struct Worst {
+    Both x{}, value{};
   };
 
   /// Everything that apply() changes.
   struct Position {
     std::size_t first = 0;  ///< of the run's pieces
     std::int64_t knot = 0;
-    std::array<Axis, kAxesPerNode> axes{};
+    Both p{}, v{};  ///< exact state at the knot as counts and counts/unit
+    /// As usual, or wider while the state at the knot is out of it.
+    Both tolerance{}, per_tolerance{};
     std::array<AxisState, kAxesPerNode> states{};
   };
 
@@ -151,7 +159,7 @@ class Segmenter {
   Piece& place(std::size_t i) { return pieces_[(at_.first + i) & (kCapacity - 1)]; }
   const Piece& place(std::size_t i) const { return pieces_[(at_.first + i) & (kCapacity - 1)]; }
   void append(const Piece& piece);
-  static void widen(Axis& axis, double offset);
+  void widen(Both offset);
   bool ready() const;
   /// How far the path is known, units from the knot.
   double known() const;
@@ -159,13 +167,15 @@ class Segmenter {
   bool stops_at(std::size_t index, double b) const;
   Reach reach() const;
   double next_units(double t, std::size_t index, double most) const;
-  Miss miss(std::size_t axis, double h, double next, std::size_t index) const;
-  double resting_acceleration(std::size_t axis, double h, Goal goal) const;
-  double spare(std::size_t axis, double most) const;
-  Bounds bounds(std::size_t axis, double h, std::size_t last) const;
-  Extreme error_over(std::size_t axis, double a, double h, std::size_t last) const;
+  Miss miss(double h, double next, std::size_t index) const;
+  Both resting_acceleration(double h, Goal goal) const;
+  Both spare(Both most) const;
+  Bounds bounds(double h, std::size_t last) const;
+  Worst error_over(Both a, double h, std::size_t last) const;
   Fit fit(std::int32_t units, Goal goal);
-  void fit_axis(std::size_t axis, const Target& target, Fit& f) const;
+  void fit_rest(const Target& target, Fit& f) const;
+  void fit_run_on(const Target& target, Fit& f) const;
+  Both accelerate(Both wanted, Fit& f) const;
   Fit choose();
   void begin_chain(const Fit& fit);
   bool extend_chain(std::size_t i);
@@ -185,7 +195,8 @@ class Segmenter {
   Counters counters_;
   double raw_per_unit_, unit_per_raw_;        ///< raw acceleration for 1 count/unit^2 of q''/2, and back
   std::array<double, kAxesPerNode> slope_{};  ///< counts per joint unit
-  std::vector<Piece> pieces_;                 ///< ring of kCapacity
+  Axes axes_;
+  std::vector<Piece> pieces_;  ///< ring of kCapacity
   Position at_;
   mutable std::size_t furthest_ = 0;  ///< piece that was looked at since the last choice began
   std::size_t pushed_ = 0;            ///< pieces of the run
