@@ -35,9 +35,11 @@ class AccelerometerPlant {
     end_ += seconds;
     for (; next_ <= end_; next_ += 1 / rate_) {
       const Vector accel = feels(next_);
+      const std::size_t drawn = random_();
       VibrationMeter::Reading reading{};
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double counts = (accel[axis] + kOffset[axis]) / kCount + kNoise * normal_(random_);
+        const double counts =
+            (accel[axis] + kOffset[axis]) / kCount + kNoise * noise()[(drawn >> (10 * axis)) % kNoises];
         reading[axis] = static_cast<std::int16_t>(
             std::clamp(std::lround(counts), -std::lround(kRange), std::lround(kRange)));
       }
@@ -55,10 +57,22 @@ class AccelerometerPlant {
  private:
   static constexpr Vector kOffset{120, -310, 9810};
 
+  static constexpr std::size_t kNoises = 1024;
+  /// Of standard deviation 1, to draw from: three normal numbers a reading were a tenth of a simulated print.
+  static const std::array<float, kNoises>& noise() {
+    static const auto drawn = [] {
+      std::array<float, kNoises> all{};
+      std::mt19937 random;
+      std::normal_distribution<float> normal;
+      for (float& one : all) one = normal(random);
+      return all;
+    }();
+    return drawn;
+  }
+
   double rate_, end_ = 0, next_ = 0;
   std::vector<VibrationMeter::Reading> queue_;
-  std::mt19937 random_;
-  std::normal_distribution<double> normal_{0, 1};
+  std::minstd_rand random_;
 };
 
 }  // namespace kinebus::heat

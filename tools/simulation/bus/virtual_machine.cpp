@@ -190,7 +190,7 @@ void VirtualMachine::check_probe(BusTime now) {
 
 bool VirtualMachine::advance(BusTime now) {
   for (;;) {
-    if (next_probe_check_ <= std::min(now, next_besides_probe())) {
+    if (next_probe_check_ <= now && next_probe_check_ <= next_besides_probe()) {
       check_probe(next_probe_check_);
       continue;
     }
