@@ -1,6 +1,6 @@
 #pragma once
-// One number of each of a node's two axes, reckoned with at once: what a processor with registers of two doubles does in
-// one step. Each lane's result is that of the same arithmetic on doubles, to the bit.
+// One number of each of a node's two axes, reckoned with at once: what a processor with registers of two
+// doubles does in one step. Each lane's result is that of the same arithmetic on doubles, to the bit.
 
 #include <cstdint>
 
