@@ -445,6 +445,10 @@
         <translation>%1 عدد می‌خواهد</translation>
     </message>
     <message>
+        <source>tool H%1 has no length here: gcode.tool_length_mm of the machine file gives it one, or G10 L1 P%1 Z in the job</source>
+        <translation>ابزار H%1 اینجا طولی ندارد: gcode.tool_length_mm در پروندهٔ ماشین یا G10 L1 P%1 Z در کار به آن طول می‌دهد</translation>
+    </message>
+    <message>
         <source>%1 must be a whole number from %2 to %3</source>
         <translation>%1 باید عددی درست از %2 تا %3 باشد</translation>
     </message>

@@ -445,6 +445,10 @@
         <translation>%1 bir sayı ister</translation>
     </message>
     <message>
+        <source>tool H%1 has no length here: gcode.tool_length_mm of the machine file gives it one, or G10 L1 P%1 Z in the job</source>
+        <translation>H%1 takımının burada boyu yok: makine dosyasının gcode.tool_length_mm anahtarı ya da işte G10 L1 P%1 Z ona bir boy verir</translation>
+    </message>
+    <message>
         <source>%1 must be a whole number from %2 to %3</source>
         <translation>%1, %2 ile %3 arasında bir tam sayı olmalı</translation>
     </message>

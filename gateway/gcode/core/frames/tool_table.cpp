@@ -12,7 +12,14 @@ bool Core::set_tool_length(Code code) {
   int tools = static_cast<int>(options_.tool_length_mm.size());
   for (const ToolEntry& entry : state_.tools) tools = std::max(tools, entry.tool);
   int h = m.tool <= tools ? m.tool : 0;
-  if (code.number != 490 && code.number != 431 && !take_integer('H', 0, tools, h)) return false;
+  if (code.number != 490 && code.number != 431) {
+    if (block_.has('H') && !block_.is_bare('H') && block_['H'] > tools)
+      return fail(block_.column_of('H'),
+                  say("tool H%1 has no length here: gcode.tool_length_mm of the machine "
+                      "file gives it one, or G10 L1 P%1 Z in the job",
+                      printed("%.6g", block_['H'])));
+    if (!take_integer('H', 0, tools, h)) return false;
+  }
   const ToolEntry tool = code.number == 490 || code.number == 431 ? ToolEntry{} : tool_entry(h);
   double tool_length = tool.offset_mm[2];
   if (code.number == 431) {
