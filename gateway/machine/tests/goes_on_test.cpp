@@ -202,5 +202,59 @@ TEST_F(GoesOn, FilamentWhoseMotorWasOffIsPrimedBeforeItGoesOn) {
   ASSERT_TRUE(rig.finish()) << rig.story();
 }
 
+// The text is checked, and read up to its place, in many turns.
+TEST_F(GoesOn, AStopOrACancelWhileItsTextIsReadLeavesItOrNot) {
+  for (const int turns : {0, 2, 5}) {
+    for (const bool cancels : {false, true}) {
+      SCOPED_TRACE(testing::Message() << turns << cancels);
+      ResumeRig rig;
+      for (int i = 0; i < 4000; ++i) rig.job_text += i % 2 == 0 ? "G1 X1 F6000\n" : "G1 X0\n";
+      ASSERT_TRUE(rig.begin(0.8)) << rig.story();
+      dies(rig);
+      ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
+      ASSERT_TRUE(rig.reach(MachineState::kChecking, 30s)) << rig.story();
+      for (int i = 0; i < turns; ++i) rig.run_for(1ms);
+      ASSERT_EQ(rig.gateway->state(), MachineState::kChecking);
+      if (cancels) {
+        ASSERT_TRUE(rig.gateway->carry_out(command::Cancel{}));
+        EXPECT_EQ(rig.gateway->state(), MachineState::kReady);
+        rig.run(1s);
+        EXPECT_EQ(rig.gateway->state(), MachineState::kReady);
+        EXPECT_FALSE(rig.gateway->status().interrupted);
+        EXPECT_FALSE(rig.gateway->carry_out(command::Resume{}));
+        continue;
+      }
+      ASSERT_TRUE(rig.gateway->carry_out(command::Stop{}));
+      ASSERT_TRUE(rig.reach(MachineState::kStopped, 2s));
+      ASSERT_TRUE(rig.gateway->carry_out(command::Clear{}));
+      ASSERT_TRUE(rig.reach(MachineState::kReady, 5s)) << rig.story();
+      rig.run(1s);
+      EXPECT_EQ(rig.gateway->state(), MachineState::kReady) << "not by itself";
+      EXPECT_TRUE(rig.gateway->status().interrupted);
+      ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
+      ASSERT_TRUE(rig.run_until([&] { return says(rig, "the job part goes on"); }, 30s)) << rig.story();
+    }
+  }
+}
+
+TEST_F(GoesOn, NodesKeepWhatTheyKnowUntilItIsWrittenDown) {
+  double took_s[2];
+  for (const bool stores : {false, true}) {
+    ResumeRig rig;
+    ASSERT_TRUE(rig.begin(0.8)) << rig.story();
+    dies(rig);
+    const BusTime from = rig.now;
+    ASSERT_TRUE(rig.gateway->carry_out(command::Resume{}));
+    ASSERT_TRUE(rig.run_until(
+        [&] {
+          if (stores) rig.store();
+          return rig.gateway->state() != MachineState::kBringUp;
+        },
+        30s));
+    took_s[stores ? 1 : 0] = to_seconds(rig.now - from);
+  }
+  EXPECT_NEAR(took_s[0] - took_s[1], 0.5, 0.05) << "a disk that does not answer is not waited for any longer";
+}
+
 }  // namespace
 }  // namespace kinebus

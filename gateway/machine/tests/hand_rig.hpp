@@ -25,6 +25,7 @@ struct Hand {
   FilamentCondition filament = FilamentCondition::kInOrder;
   double spindle_rpm = 0;  ///< to be
   bool spindle_lags = false;
+  int served = 0;  ///< turns of the spindle's on_time()
 };
 
 class HandHeater final : public Heater {
@@ -59,6 +60,7 @@ class HandFilament final : public FilamentSensor {
 class HandSpindle final : public SpindleDrive {
  public:
   explicit HandSpindle(Hand& hand) : hand_(hand) {}
+  void on_time(BusTime) override { ++hand_.served; }
   void set(double rpm) override { hand_.spindle_rpm = rpm; }
   SpindleStatus status() const override {
     return {.actual_rpm = hand_.spindle_lags ? 0 : hand_.spindle_rpm, .target_rpm = hand_.spindle_rpm};

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "gateway/machine/tests/hand_rig.hpp"
+#include "protocol/canopen/cob_id.hpp"
 
 namespace kinebus {
 namespace {
@@ -35,6 +36,9 @@ TEST_F(States, AJobFromItsCheckToItsEnd) {
   EXPECT_EQ(s.progress, 0);
   EXPECT_EQ(s.elapsed_s, 0);
   EXPECT_NEAR(x(), 0, 2e-3);
+  ASSERT_TRUE(asks(command::Jog{.delta = {5, 0, 0, 0, 0, 0}, .speed_per_s = 20}));
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 5s));
+  EXPECT_NEAR(x(), 5, 2e-3) << "by hand after it";
 }
 
 TEST_F(States, AMoveByHand) {
@@ -205,15 +209,15 @@ TEST_F(States, AMotorIsJoggedAloneOnlyAsFarAndAsFastAsIsAsked) {
             "one motor alone goes at most 20 mm or 30 degrees: the others hold the tool");
   EXPECT_EQ(why_not(command::JogMotor{.joint = 6, .distance = 1}), "there is no joint 7: they are 1 to 6");
   const BusTime from = rig.now;
-  ASSERT_TRUE(asks(command::JogMotor{.joint = 0, .distance = 5}));
+  ASSERT_TRUE(asks(command::JogMotor{.joint = 0, .distance = 15}));
   ASSERT_TRUE(rig.reach(MachineState::kReady, 10s));
-  EXPECT_NEAR(to_seconds(rig.now - from), 1, 0.3) << "5 mm/s";
+  EXPECT_NEAR(to_seconds(rig.now - from), 3, 0.4) << "5 mm/s";
   for (std::size_t joint = 0; joint < 6; ++joint)
-    EXPECT_NEAR(status().joints[joint], before[joint] + (joint == 0 ? 5 : 0), 0.01) << joint;
+    EXPECT_NEAR(status().joints[joint], before[joint] + (joint == 0 ? 15 : 0), 0.01) << joint;
   const BusTime again = rig.now;
-  ASSERT_TRUE(asks(command::JogMotor{.joint = 0, .distance = -5, .speed_per_s = 20}));
+  ASSERT_TRUE(asks(command::JogMotor{.joint = 0, .distance = -15, .speed_per_s = 20}));
   ASSERT_TRUE(rig.reach(MachineState::kReady, 10s));
-  EXPECT_LT(to_seconds(rig.now - again), 0.7);
+  EXPECT_NEAR(to_seconds(rig.now - again), 15 / 20., 0.4);
   EXPECT_NEAR(status().joints[0], before[0], 0.01);
 }
 
@@ -318,7 +322,15 @@ TEST_F(States, AMachineOfWhichNobodyKnowsWhatIsSolid) {
 TEST_F(States, WhatTheNodesSayIsInTheStatus) {
   ASSERT_TRUE(ready());
   ASSERT_TRUE(asks(command::SetWorkOffset{.system = 1, .offset = {1, 2, 3, 0, 0, 0}}));
+  std::uint64_t sent = 0;
+  rig.on_frame = [&](BusTime, const CanFrame& frame) {
+    for (std::uint8_t node = 1; node <= 3; ++node)
+      sent += frame.id == cob_id::rpdo(3, node) || frame.id == cob_id::rpdo(4, node) ? 1 : 0;
+  };
+  const std::uint64_t before = status().counters.segments_sent;
   ASSERT_TRUE(rig.run_job("G1 X10 F1200\n"));
+  EXPECT_EQ(status().counters.segments_sent - before, sent);
+  EXPECT_GT(hand.served, 100);
   const MachineStatus s = status();
   EXPECT_EQ(s.now, rig.now);
   EXPECT_EQ(s.work_system, 1U);
