@@ -302,5 +302,38 @@ TEST_F(HeldJobs, LinesOfAHostAreHeldAndGivenUpWithIt) {
   EXPECT_EQ(told(), "= running\n. all lines done: host\n= ready\n");
 }
 
+TEST_F(HeldJobs, WhatIsMendedIsNotTheReasonOfTheNextHold) {
+  ASSERT_TRUE(ready());
+  ASSERT_TRUE(prints_to(20));
+  hand.hotend.broken = true;
+  ASSERT_TRUE(rig.reach(MachineState::kHeld, 10s));
+  hand.hotend.broken = false;
+  ASSERT_TRUE(asks(command::Resume{}));
+  ASSERT_TRUE(rig.run_until([&] { return !status().interrupted && x() > 30; }, 60s));
+  ASSERT_TRUE(asks(command::Hold{}));
+  ASSERT_TRUE(rig.reach(MachineState::kHeld, 5s));
+  EXPECT_EQ(status().doing.english().find("heater"), std::string::npos);
+  told();
+  ASSERT_TRUE(asks(command::Resume{}));
+  rig.run_for(100ms);
+  EXPECT_EQ(told(), "= running\n");
+}
+
+TEST_F(HeldJobs, AHeaterIsMeasuredByWhoeverNamesIt) {
+  ASSERT_TRUE(ready());
+  const auto why = [&](const char* line) {
+    const auto reply = rig.gateway->text_line(line);
+    return reply ? std::string() : reply.error().words.english().substr(0, 15);
+  };
+  for (const char* line :
+       {"M303 S200", "M303 E0 S200", "M303 H1 S200", "M303 T0 S200", "M303 P0 S200", "M303 H S200"})
+    EXPECT_EQ(why(line), "heater.hotend: ") << line;
+  for (const char* line : {"M303 E-1 S60", "M303 H0 S60"}) EXPECT_EQ(why(line), "heater.bed: it ") << line;
+  for (const char* line : {"M303 E-2 S60", "M303 E1 S60", "M303 E254 S60"})
+    EXPECT_EQ(why(line), "this machine ha") << line;
+  for (const char* line : {"M303 E0.5", "M303 E-3", "M303 E255"})
+    EXPECT_EQ(why(line), "M303 names a he") << line;
+}
+
 }  // namespace
 }  // namespace kinebus

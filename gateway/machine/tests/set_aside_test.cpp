@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "gateway/machine/tests/held_rig.hpp"
+#include "protocol/can/candump.hpp"
 
 namespace kinebus {
 namespace {
@@ -234,6 +235,34 @@ TEST_F(SetAside, OneThatAStopInterruptedStandsByToo) {
   EXPECT_EQ(state(), MachineState::kReady);
   ASSERT_TRUE(goes_on_to_the_end(on_part));
   EXPECT_EQ(hand.hotend.target, 200);
+}
+
+TEST_F(SetAside, AHotEndStandsByInPlaceWhereTheRunIsGoneAndItsHeatWasLeft) {
+  MachineDescription machine = that_parks();
+  machine.thermal.on_stop = ThermalDescription::After::kKeep;
+  use(machine);
+  ASSERT_TRUE(ready());
+  ASSERT_TRUE(runs_to("M104 S200\nM140 S60\nG1 X60 E6 F1200\nG1 X0 E12\n", 20));
+  const double on_part = z();
+  rig.gateway->on_frame(rig.now, *parse_frame("402#4001000000000000"));
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 2s));
+  EXPECT_EQ(hand.hotend.target, 200);
+  ASSERT_TRUE(asks(command::MotorsOff{}));
+  ASSERT_TRUE(asks(command::BringUp{}));
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 30s)) << rig.story();
+  EXPECT_EQ(hand.hotend.target, 200);
+  rig.run_for(22s);
+  EXPECT_EQ(hand.hotend.target, 120);
+  ASSERT_TRUE(goes_on_to_the_end(on_part));
+  EXPECT_EQ(hand.hotend.target, 200) << "what the job wants";
+}
+
+TEST_F(SetAside, AMachineWithoutAHotEndMovesNoFilament) {
+  MachineDescription machine = that_parks();
+  machine.heaters.clear();
+  use(machine);
+  ASSERT_TRUE(ready());
+  EXPECT_EQ(why_not(command::MoveFilament{}), "nothing here feeds filament");
 }
 
 }  // namespace

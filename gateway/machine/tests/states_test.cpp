@@ -334,6 +334,10 @@ TEST_F(States, WhatTheNodesSayIsInTheStatus) {
   const MachineStatus s = status();
   EXPECT_EQ(s.now, rig.now);
   EXPECT_EQ(s.work_system, 1U);
+  EXPECT_EQ(s.doing.english(), "ready");
+  EXPECT_FALSE(s.measured_pose) << "no encoder is there";
+  ASSERT_TRUE(rig.gateway->take_line("G55", 1));
+  EXPECT_EQ(status().work_system, 2U);
   EXPECT_EQ(s.rate, 0);
   EXPECT_GT(s.path_time_s, 0.5);
   EXPECT_GT(s.bus_load, 0.001);
@@ -375,28 +379,6 @@ TEST_F(States, NodesThatDoNotTellWhereTheyStandAreAnAlarm) {
   rig.lose_to_gateway = {};
   ASSERT_TRUE(asks(command::Clear{}));
   EXPECT_EQ(state(), MachineState::kOff);
-}
-
-TEST_F(States, NobodyIsAskedForCurrentsOfMotorsThatAreOffOrHome) {
-  ASSERT_TRUE(ready());
-  int asked = 0;
-  rig.on_frame = [&](BusTime, const CanFrame& frame) {
-    asked += frame.id > 0x600 && frame.id <= 0x603 ? 1 : 0;
-  };
-  const auto asks_for_currents = [&](BusTime duration) {
-    asked = 0;
-    for (const BusTime until = rig.now + duration; rig.now < until; rig.run_for(100ms))
-      rig.gateway->watch_currents();
-    return asked > 0;
-  };
-  EXPECT_TRUE(asks_for_currents(1s));
-  ASSERT_TRUE(asks(command::MotorsOff{}));
-  EXPECT_FALSE(asks_for_currents(1s));
-  ASSERT_TRUE(asks(command::BringUp{}));
-  ASSERT_TRUE(rig.reach(MachineState::kUnhomed, 30s)) << rig.story();
-  rig.gateway->on_bus_failure(rig.now, "bus-off");
-  ASSERT_TRUE(rig.reach(MachineState::kAlarm, 2s));
-  EXPECT_FALSE(asks_for_currents(1s));
 }
 
 }  // namespace

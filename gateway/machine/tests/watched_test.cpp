@@ -214,6 +214,21 @@ TEST_F(Watched, TheJournalHasAJobsBeginningHeatPlaceAndEnd) {
   EXPECT_EQ(noted.places, held.places) << "nothing moves";
   EXPECT_EQ(noted.ends, 0);
   ASSERT_TRUE(asks(command::Resume{}));
+  runs_and_stores(500ms);
+  ASSERT_TRUE(asks(command::SetTemperature{kFirstBed, 0}));
+  runs_and_stores(20ms);
+  ASSERT_TRUE(asks(command::Stop{}));
+  runs_and_stores(1s);
+  ASSERT_TRUE(asks(command::Clear{}));
+  runs_and_stores(1s);
+  ASSERT_EQ(state(), MachineState::kHeld);
+  const Noted stopped = noted;
+  ASSERT_TRUE(asks(command::Resume{}));
+  runs_and_stores(1s);
+  EXPECT_GT(noted.places, stopped.places + 2) << "after a stop as before it";
+  ASSERT_TRUE(asks(command::SetTemperature{kFirstBed, 50}));
+  runs_and_stores(20ms);
+  EXPECT_EQ(noted.bed, 50);
   runs_and_stores(10s);
   EXPECT_EQ(state(), MachineState::kReady);
   EXPECT_EQ(noted.ends, 1);
@@ -241,6 +256,44 @@ TEST_F(Watched, AHeaterThatBreaksWhileAnInterruptedJobIsHomedForIsHotAgainWhenIt
   ASSERT_TRUE(rig.run_until([&] { return !status().interrupted && x() > 30; }, 60s)) << rig.story();
   EXPECT_EQ(hand.hotend.target, 200);
   ASSERT_TRUE(rig.reach(MachineState::kReady));
+}
+
+TEST_F(Watched, ASessionVouchesForWhatIsSent) {
+  MachineDescription machine = rig.machine;
+  machine.bus.trust = BusTrust::kSession;
+  use(machine, {.bus_secret = {.low = 5, .high = 7}});
+  int vouchers = 0, records = 0;
+  rig.on_frame = [&](BusTime, const CanFrame& frame) {
+    vouchers += frame.id == 0x3FF ? 1 : 0;
+    records += frame.id > 0x400 && frame.id <= 0x403 ? 1 : 0;
+  };
+  ASSERT_TRUE(ready());
+  vouchers = records = 0;
+  ASSERT_TRUE(rig.run_job("G1 X10 F1200\n"));
+  EXPECT_GT(records, 20);
+  EXPECT_GE(vouchers, records);
+}
+
+TEST_F(Watched, NobodyIsAskedForCurrentsOfMotorsThatAreOffOrHome) {
+  ASSERT_TRUE(ready());
+  int asked = 0;
+  rig.on_frame = [&](BusTime, const CanFrame& frame) {
+    asked += frame.id > 0x600 && frame.id <= 0x603 ? 1 : 0;
+  };
+  const auto asks_for_currents = [&](BusTime duration) {
+    asked = 0;
+    for (const BusTime until = rig.now + duration; rig.now < until; rig.run_for(100ms))
+      rig.gateway->watch_currents();
+    return asked > 0;
+  };
+  EXPECT_TRUE(asks_for_currents(1s));
+  ASSERT_TRUE(asks(command::MotorsOff{}));
+  EXPECT_FALSE(asks_for_currents(1s));
+  ASSERT_TRUE(asks(command::BringUp{}));
+  ASSERT_TRUE(rig.reach(MachineState::kUnhomed, 30s)) << rig.story();
+  rig.gateway->on_bus_failure(rig.now, "bus-off");
+  ASSERT_TRUE(rig.reach(MachineState::kAlarm, 2s));
+  EXPECT_FALSE(asks_for_currents(1s));
 }
 
 }  // namespace

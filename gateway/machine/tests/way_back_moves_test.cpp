@@ -49,8 +49,8 @@ class WayBackMoves : public ::testing::Test {
       EXPECT_TRUE(feed != nullptr || traverse != nullptr);
       const Pose& to = feed != nullptr ? feed->target : traverse->target;
       char words[120];
-      std::snprintf(words, sizeof words, "%s X%g Y%g Z%g E%g", feed != nullptr ? "feed" : "go", to[kX], to[kY], to[kZ],
-                    to[kE]);
+      std::snprintf(words, sizeof words, "%s X%g Y%g Z%g E%g", feed != nullptr ? "feed" : "go", to[kX],
+                    to[kY], to[kZ], to[kE]);
       text += words;
       if (feed != nullptr) {
         std::snprintf(words, sizeof words, " F%g", feed->feed_per_s);
