@@ -140,6 +140,24 @@ TEST_F(Watched, ARecordThatIsLostIsCountedAsWhatItIs) {
   EXPECT_TRUE(status().interrupted);
 }
 
+TEST_F(Watched, ANodeThatExpectsARecordThatWasNeverSentStopsAllAndIsCountedAsNothingElse) {
+  ASSERT_TRUE(ready());
+  ASSERT_TRUE(runs_to(kLine, 20));
+  told();
+  CanFrame frame{.id = cob_id::tpdo(2, 2), .length = 8};
+  StreamStatus status_of_another{.next_sequence = 100, .flags = StreamStatus::kSynchronised};
+  put_u64_le(frame.data, encode(status_of_another));
+  rig.gateway->on_frame(rig.now, frame);
+  const MachineCounters c = status().counters;
+  EXPECT_EQ(told(), "! the node expects a record that was never sent (record): 100, node 2\n= stopping\n");
+  EXPECT_EQ(c.sequence_errors, 0U) << "it counts those that were lost";
+  EXPECT_EQ(c.checkpoint_errors, 0U);
+  EXPECT_EQ(c.underruns, 0U);
+  EXPECT_EQ(state(), MachineState::kStopping);
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 2s)) << "no fault of the machine's own";
+  EXPECT_FALSE(status().positions_known);
+}
+
 TEST_F(Watched, FramesThatNobodyUsesAreToldOnceUntilTheNextBringUp) {
   ASSERT_TRUE(ready());
   for (int round = 0; round < 2; ++round) {
@@ -164,7 +182,7 @@ TEST_F(Watched, FramesThatNobodyUsesAreToldOnceUntilTheNextBringUp) {
 TEST_F(Watched, TheJournalHasAJobsBeginningHeatPlaceAndEnd) {
   use(rig.machine, {.journal = true});
   struct Noted {
-    int begun = 0, heat = 0, places = 0, times = 0, ends = 0, overrides = 0;
+    int begun = 0, heat = 0, places = 0, times = 0, ends = 0, overrides = 0, heights = 0;
     double bed = 0;
   } noted;
   std::uint64_t stored = 0;
@@ -174,6 +192,7 @@ TEST_F(Watched, TheJournalHasAJobsBeginningHeatPlaceAndEnd) {
       noted.begun += std::holds_alternative<journal::JobBegin>(*record) ? 1 : 0;
       noted.places += std::holds_alternative<journal::Progress>(*record) ? 1 : 0;
       noted.times += std::holds_alternative<journal::JobTime>(*record) ? 1 : 0;
+      noted.heights += std::holds_alternative<journal::Printed>(*record) ? 1 : 0;
       noted.ends += std::holds_alternative<journal::JobEnd>(*record) ? 1 : 0;
       noted.overrides += std::holds_alternative<journal::Override>(*record) ? 1 : 0;
       if (const auto* heat = std::get_if<journal::Heat>(&*record)) {
@@ -233,6 +252,7 @@ TEST_F(Watched, TheJournalHasAJobsBeginningHeatPlaceAndEnd) {
   EXPECT_EQ(state(), MachineState::kReady);
   EXPECT_EQ(noted.ends, 1);
   EXPECT_EQ(noted.begun, 1);
+  EXPECT_LE(noted.heights, 1) << "nothing was printed";
 }
 
 TEST_F(Watched, AHeaterThatBreaksWhileAnInterruptedJobIsHomedForIsHotAgainWhenItGoesOn) {
