@@ -207,7 +207,8 @@ Done Gateway::Core::resume() {
   // What is held on its way back to the job goes on with that.
   const bool by_hand = hand_.runner().active();
   if (!state_.is(MachineState::kHeld) || (print_.runner().suspended() && !by_hand)) return go_on();
-  if (heat_.start_kept_spindle()) {
+  // Its way back turns the spindle itself.
+  if (!by_hand && heat_.start_kept_spindle()) {
     recovery_.await_spindle(state_.visit());
     return {};
   }

@@ -226,6 +226,8 @@ void Gateway::Core::stop_all(bool fault, bool by_absence) {
   if (hand_.leads_to(ManualMotion::Then::kReturn) || hand_.leads_to(ManualMotion::Then::kHeld))
     hand_.forget_then();
   hand_.end_jogs();
+  // Nodes that are half configured are brought up anew; what they say until then is no news.
+  if (bring_up_.busy()) watch_.lose();
   bring_up_.abort();
   if (homing_.busy()) {
     homing_.abort();
