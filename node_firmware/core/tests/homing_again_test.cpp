@@ -159,6 +159,11 @@ TEST_F(HomingByLoadAgain, TheSecondMeetingIsWithin512CountsOfTheFirst) {
       wait(kSecond / 2);
       homing.on_switch(now, true, from_counts(50'000 * way + off_by), motion);
       EXPECT_EQ(homing.error(), std::abs(off_by) > 512 ? HomingError::kBounced : HomingError::kNone);
+      const std::int64_t here = motion.at(now).position;
+      wait(kSecond / 10);
+      if (homing.error() == HomingError::kNone) continue;
+      EXPECT_TRUE(motion.done(now)) << "it does not press on";
+      EXPECT_LT((motion.at(now).position - here) * way, from_counts(1'000));
     }
 }
 

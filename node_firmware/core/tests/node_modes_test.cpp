@@ -259,9 +259,9 @@ TEST_F(ModesTest, ATargetThatWasCutIsToldUntilThereIsAnother) {
   EXPECT_FALSE(status() & kLimited) << "by the next set-point";
   bench.run(500ms);
   cut();
-  mode(3);
-  bench.run(2ms);
+  mode(6);
   EXPECT_FALSE(status() & kLimited) << "by another mode";
+  mode(3);
   bench.write(kId, 0x60FF, 0, 4, 3'000);
   bench.run(100ms);
   EXPECT_TRUE(status() & kLimited) << "it stands where it may not go on";
@@ -329,6 +329,19 @@ TEST_F(ModesTest, WithoutSyncALineStopsAtItsLimitsToo) {
     bench.run(1s);
     ASSERT_EQ(counts(), 0);
   }
+}
+
+TEST_F(ModesTest, ALineIsNotBoundByATravelOfWhichNobodyKnowsWhereItIs) {
+  limits(-1'000, 1'000);
+  bench.enable(kId, 0, 8);
+  EXPECT_FALSE(status() & kBit12) << "no SYNC has come: it follows nothing";
+  operational(20ms);
+  for (int at = 0; at <= 2'100; at += 70) {
+    bench.write(kId, 0x607A, 0, 4, at);
+    bench.run(19ms - (bench.now.count() % 20'000'000) * 1ns + 1ms);
+  }
+  bench.run(500ms);
+  EXPECT_EQ(counts(), 2'100);
 }
 
 TEST_F(ModesTest, ASetPointThatIsFarForAShortTimeStopsNobody) {

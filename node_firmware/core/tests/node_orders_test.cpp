@@ -31,6 +31,7 @@ TEST_F(OrdersTest, AStoppedNodeTakesNothingBySdoAndAnswersNothing) {
   EXPECT_EQ(lone.write(0x6065, 0, 4, before + 5), kNoAnswer);
   EXPECT_EQ(lone.write(0x2110, 0, 8, 0), kNoAnswer) << "nor what it would refuse";
   lone.send("000#0101");
+  EXPECT_EQ(lone.late_answer(), kNoAnswer) << "nor later";
   EXPECT_EQ(lone.read(0x6065, 0), before);
 }
 

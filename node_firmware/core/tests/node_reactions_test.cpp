@@ -271,7 +271,8 @@ TEST_F(ReactionsOfOne, AStampAloneBringsNoSyncBack) {
 
 TEST_F(ReactionsOfOne, OnlyAProbeIsAProbe) {
   EXPECT_EQ(lone.write(0x2130, 7, 1, static_cast<int>(SwitchFunction::kProbe)), 0u);
-  EXPECT_EQ(lone.write(0x60B8, 0, 2, 0x0033), 0u);
+  for (const std::uint16_t index : {std::uint16_t{0x60B8}, std::uint16_t{0x68B8}})
+    EXPECT_EQ(lone.write(index, 0, 2, index == 0x60B8 ? 0x0033 : 0x0023), 0u);
   lone.start_move();
   const std::int64_t before = lone.read(0x2140, 8);
   lone.node.on_switch(lone.now, 0, true);
@@ -286,6 +287,8 @@ TEST_F(ReactionsOfOne, OnlyAProbeIsAProbe) {
   lone.node.on_switch(lone.now, 6, false);
   lone.wait(2ms);
   EXPECT_EQ(lone.read(0x2140, 8), touched);
+  EXPECT_EQ(lone.read(0x60B9, 0) & 0x0006, 0x0006) << "both edges";
+  EXPECT_EQ(lone.read(0x68B9, 0) & 0x0006, 0x0004) << "of the other axis one is asked for";
 }
 
 TEST_F(ReactionsOfOne, WhatRanOutDoesNotGoOnUntilItsBufferIsCleared) {
