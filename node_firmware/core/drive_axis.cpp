@@ -32,33 +32,26 @@ void DriveAxis::on_reset(LocalTime now) {
   power_ = {};
   serve_power(now);
   mode_ = wanted_mode_ = Mode::kNone;
-  serving_ = cia402::Stop::kNone;
   word_ = 0;
-  halted_ = limited_ = leaving_ = position_known_ = false;
+  limited_ = false;
   homing_ = {};
-  profile_position_.reset(0);
-  profile_.hold(position(now));
 }
 
 void DriveAxis::on_controlword(LocalTime now, std::uint16_t word) {
-  on_time(now);
-  const auto rising = static_cast<std::uint16_t>(word & ~word_);
   const bool start_changed = ((word ^ word_) & control::kHomingStart) != 0;
   word_ = word;
   power_.on_controlword(word, stop_options());
   serve_power(now);
   serve_stop(now);
-  const bool may_move = power_.moves() && !blocked() && source_ != Source::kStream;
+  const bool may_move = power_.moves() && !blocked();
   if (mode_ == Mode::kProfilePosition) {
-    if (may_move && source_ == Source::kProfile)
+    if (may_move)
       profile_position_.on_controlword(to_ticks(now), word, next_set_point(word), profile_);
     else if (!halted_)
       profile_position_.reset(word);
   }
-  if (mode_ == Mode::kHoming && start_changed) {
-    const bool start = (rising & control::kHomingStart) != 0;
-    if (!start || may_move) start_or_end_homing(now, start);
-  }
+  if (mode_ == Mode::kHoming && start_changed && may_move)
+    start_or_end_homing(now, (word & control::kHomingStart) != 0);
   on_time(now);
 }
 
@@ -68,7 +61,6 @@ void DriveAxis::on_mode(LocalTime now, int mode) {
 }
 
 void DriveAxis::on_fault(LocalTime now, std::uint16_t code, bool power_lost) {
-  on_time(now);
   if (power_.state() == cia402::State::kFault) return;
   error_code_ = code;
   emergency_ = code;
@@ -104,7 +96,7 @@ void DriveAxis::on_time(LocalTime now) {
 // Power on or off, enabled or not: what these changes mean for the motion.
 void DriveAxis::serve_power(LocalTime now) {
   const bool enabled = power_.state() == cia402::State::kOperationEnabled;
-  if (was_powered_ && !power_.powered()) {
+  if (!power_.powered()) {
     // Without current the motor may be moved by anything.
     homing_.abort();
     position_known_ = false;
@@ -115,11 +107,11 @@ void DriveAxis::serve_power(LocalTime now) {
     objects_.set_value(kTarget[index_], whole_counts(position(now)));
     limited_ = false;
   }
-  if (!enabled && was_enabled_) halted_ = false;
-  // Disabled without a ramp of its own (605Ch = 0): the motor keeps its current, and must not go on.
-  if (!enabled && was_enabled_ && power_.state() == cia402::State::kSwitchedOn && moving(now))
-    end_motion(now);
-  was_powered_ = power_.powered();
+  if (!enabled && was_enabled_) {
+    halted_ = false;
+    // Without a ramp of its own (605Ch = 0): the motor keeps its current, and must not go on.
+    if (power_.state() == cia402::State::kSwitchedOn && moving(now)) end_motion(now);
+  }
   was_enabled_ = enabled;
   const bool faulty =
       power_.state() == cia402::State::kFault || power_.state() == cia402::State::kFaultReactionActive;
@@ -137,8 +129,7 @@ void DriveAxis::end_motion(LocalTime now) {
 }
 
 void DriveAxis::on_connection_lost(LocalTime now) {
-  on_time(now);
-  if (source_ == Source::kStream || !moving(now)) return;
+  if (!moving(now)) return;
   switch (parameter(slot_of_axes(object::kAbortConnectionOption))) {
     case 0:
       return;
@@ -160,8 +151,7 @@ void DriveAxis::serve_stop(LocalTime now) {
     const bool was_halted = std::exchange(halted_, power_.halted() && asked != cia402::Stop::kNone);
     if (asked == cia402::Stop::kNone) {
       const bool resumes = was_halted && power_.moves() && !blocked();
-      if (resumes && mode_ == Mode::kProfilePosition && source_ == Source::kProfile)
-        profile_position_.resume(t, profile_);
+      if (resumes && mode_ == Mode::kProfilePosition) profile_position_.resume(t, profile_);
       if (resumes && mode_ == Mode::kHoming && (word_ & control::kHomingStart) != 0)
         start_or_end_homing(now, true);
     } else {
@@ -189,11 +179,10 @@ void DriveAxis::serve_motion(LocalTime now) {
   // SYNC has ended in the midst of a motion: a master, or the bus, is gone.
   if (source_ == Source::kLine && t >= line_.lost_at() && !blocked())
     path_.request_stop(StopReason::kSyncLost, static_cast<int>(index_), emcy::kSyncController, now);
-  if (source_ == Source::kProfile && mode_ == Mode::kProfilePosition && serving_ == cia402::Stop::kNone)
+  if (mode_ == Mode::kProfilePosition && serving_ == cia402::Stop::kNone)
     profile_position_.on_time(t, served_until_, profile_);
   // So that a checkpoint before the first record compares with where the axis is.
-  if (source_ != Source::kStream && path_.stream().idle() && !moving(now))
-    path_.stream().set_rest_position(static_cast<int>(index_), state_at(t).position);
+  if (!moving(now)) path_.stream().set_rest_position(static_cast<int>(index_), state_at(t).position);
 }
 
 void DriveAxis::to_profile(ProfileTicks t) {

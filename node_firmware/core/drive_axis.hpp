@@ -122,7 +122,7 @@ class DriveAxis {
   cia402::PowerStateMachine power_;
   Mode mode_ = Mode::kNone;
   Mode wanted_mode_ = Mode::kNone;
-  Source source_ = Source::kProfile;
+  Source source_ = Source::kProfile;  ///< a line only in modes 7 and 8, the stream only in mode 7
   Trapezoid profile_;
   LinearInterpolator line_{profile_};  // which plans with it while it is the source
   ProfilePosition profile_position_;
@@ -138,7 +138,6 @@ class DriveAxis {
   const DriveAxis* neighbour_ = nullptr;
   std::uint16_t word_ = 0;
   cia402::Stop serving_ = cia402::Stop::kNone;
-  bool was_powered_ = false;
   bool was_enabled_ = false;
   bool halted_ = false;
   bool position_known_ = false;
@@ -147,7 +146,6 @@ class DriveAxis {
   bool left_behind_ = false;
   bool creeps_ = false;   // after the stream was dropped; the flag outlives that motion's end
   bool leaving_ = false;  // brakes for a change of mode
-  bool homing_error_told_ = false;
   ProfileTicks served_until_ = std::numeric_limits<ProfileTicks>::min();
   bool limited_ = false;  // a target was cut to a limit
   std::int64_t origin_ = 0;

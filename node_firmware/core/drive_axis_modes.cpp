@@ -54,7 +54,6 @@ void DriveAxis::enter_mode(LocalTime now, Mode mode) {
   limited_ = false;
   homing_.abort();
   profile_position_.reset(word_);
-  runs_.reset();
   // What was asked for before is not to move the axis when the mode comes back.
   if (mode != Mode::kProfileVelocity) objects_.set_value(kTargetVelocity[index_], 0);
   const std::int32_t here = whole_counts(position(now));
@@ -66,17 +65,16 @@ void DriveAxis::enter_mode(LocalTime now, Mode mode) {
 // Profile velocity: on its way to the end of where it may be, at the target velocity, until that is another
 // one. What stops it by 60FFh = 0, at a limit, or in any other way is a ramp like every other.
 void DriveAxis::serve_velocity(LocalTime now) {
-  const bool runs = mode_ == Mode::kProfileVelocity && wanted_mode_ == mode_ && source_ == Source::kProfile &&
-                    power_.moves() && !blocked();
+  const bool runs = mode_ == Mode::kProfileVelocity && wanted_mode_ == mode_ && power_.moves() && !blocked();
   if (!runs) return runs_.reset();
   const std::int64_t wanted = parameter(kTargetVelocity);
   const std::int64_t fastest = unsigned_parameter(slot_of_axes(object::kMaxProfileVelocity));
-  const std::int64_t speed = std::min(wanted < 0 ? -wanted : wanted, fastest);
+  const std::int64_t asked = wanted < 0 ? -wanted : wanted, speed = std::min(asked, fastest);
   const ProfileTicks t = to_ticks(now);
   ProfilePosition::SetPoint next{.target = 0, .limits = profile_limits(static_cast<std::uint32_t>(speed))};
   if (speed != 0) next.target = within_limits(wanted < 0 ? -kPositionBound : kPositionBound);
   limited_ = speed != 0 && profile_.done(t) && runs_ == next;  // it stands where it may not go on
-  if (speed != (wanted < 0 ? -wanted : wanted)) limited_ = true;
+  if (speed != asked) limited_ = true;
   if (runs_ == next) return;
   runs_ = next;
   if (speed == 0)
@@ -106,7 +104,6 @@ void DriveAxis::begin_stream(LocalTime now) {
 }
 
 void DriveAxis::on_sync(LocalTime now) {
-  on_time(now);
   const bool cyclic = mode_ == Mode::kCyclicSynchronousPosition;
   const bool linear = mode_ == Mode::kInterpolatedPosition && parameter(kSubMode) == 0 &&
                       (word_ & control::kInterpolationEnable) != 0;
@@ -141,9 +138,8 @@ void DriveAxis::on_sync(LocalTime now) {
 /// A set-point that stays too far ahead, for too long, is none that the master has planned: all stop.
 void DriveAxis::follow(LocalTime now, std::int64_t behind) {
   if (behind != 0) limited_ = true;
-  constexpr std::int64_t kUnwatched = 0xFFFF'FFFF;
-  const std::int64_t window = parameter(slot_of_axes(object::kFollowingErrorWindow));
-  if (window == kUnwatched || (behind >> 32) < window) {
+  // FFFF'FFFFh, unwatched, is more than a set-point can be away.
+  if ((behind >> 32) < parameter(slot_of_axes(object::kFollowingErrorWindow))) {
     behind_since_ = LocalTime::max();
     return;
   }
@@ -222,11 +218,10 @@ SwitchFunction DriveAxis::homing_function() const {
 void DriveAxis::start_or_end_homing(LocalTime now, bool start) {
   const ProfileTicks t = to_ticks(now);
   if (start) {
-    if (source_ != Source::kProfile) to_profile(t);  // a motion that still brakes goes over into the new one
     const SwitchFunction function = homing_function();
     tell_homing();
-    homing_.start(t, homing_config(), function != SwitchFunction::kNone && inputs_.active(function),
-                  profile_);
+    // A motion that still brakes goes over into the new one.
+    homing_.start(t, homing_config(), inputs_.active(function), profile_);
     serve_homing(now);
   } else if (homing_.running()) {
     homing_.abort();
@@ -246,11 +241,9 @@ bool DriveAxis::homes_with(SwitchFunction function) const {
 void DriveAxis::on_switch(LocalTime now, const SwitchEvent& event) {
   on_time(now);
   if (!homes_with(event.function)) return;
-  tell_homing();
   scale_at_edge_ = event.scales[index_];  // the last edge of a homing is the one that counts
   homing_.on_switch(to_ticks(now), event.active, event.latched[index_], profile_);
   serve_homing(now);
-  on_time(now);
 }
 
 void DriveAxis::serve_homing(LocalTime now) {
@@ -264,11 +257,10 @@ void DriveAxis::serve_homing(LocalTime now) {
     home_latch_ = homing_.latched();
     scale_at_home_ = std::exchange(scale_at_edge_, std::nullopt);
   }
-  if (homing_.error() != HomingError::kNone && !homing_error_told_) {
+  if (homing_.error() != HomingError::kNone) {  // it runs no more: told once
     ++homing_errors_;
     emergency_ = node_emcy::kHoming;
   }
-  homing_error_told_ = homing_.error() != HomingError::kNone;
 }
 
 std::uint16_t DriveAxis::statusword(LocalTime now) const {

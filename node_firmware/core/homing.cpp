@@ -18,7 +18,6 @@ Homing::Switch Homing::switch_of(int method) {
 void Homing::start(ProfileTicks now, const HomingConfig& config, bool switch_active, Trapezoid& motion) {
   config_ = config;
   attained_ = false;
-  has_shift_ = false;
   error_ = HomingError::kNone;
   if (!supports(config.method)) return fail(now, motion, HomingError::kMethod);
   const int method = config.method;

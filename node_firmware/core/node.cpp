@@ -166,7 +166,7 @@ void Node::set_motor(int axis, std::uint32_t resistance_mohm, std::uint32_t indu
 }
 
 void Node::count(NodeCounter counter, std::uint32_t times) {
-  counters_[std::min<std::size_t>(static_cast<std::size_t>(counter), counters_.size() - 1)] += times;
+  counters_[static_cast<std::size_t>(counter)] += times;
 }
 
 void Node::on_receive_overrun(LocalTime at, std::uint32_t frames) {

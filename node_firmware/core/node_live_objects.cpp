@@ -22,7 +22,7 @@ bool Node::read_node_object(ObjectAddress address, std::int64_t& value) {
       value = path_.status_flags();
       return true;
     case 0x1003:
-      value = address.subindex == 0 ? emcy_.history_length() : 0;
+      value = emcy_.history_length();
       if (address.subindex > emcy_.history_length()) return false;
       if (address.subindex > 0) value = emcy_.history(address.subindex - 1u);
       return true;
@@ -99,10 +99,10 @@ bool Node::follows_badly(const DriveAxis& axis) const {
   if (mode != static_cast<int>(cia402::Mode::kProfilePosition) &&
       mode != static_cast<int>(cia402::Mode::kCyclicSynchronousPosition))
     return false;
-  constexpr std::int64_t kUnwatched = 0xFFFF'FFFF;
+  // FFFF'FFFFh, unwatched, is more than an error can be.
   const std::int64_t window = objects_.value(slot_of_axes(object::kFollowingErrorWindow)[i]);
   const std::int64_t error = feedback_[i].following_error;
-  return window != kUnwatched && (error < 0 ? -error : error) > window;
+  return (error < 0 ? -error : error) > window;
 }
 
 AbortCode Node::may_fit_scale(const Node& node, int axis, std::uint8_t kind) {
@@ -158,12 +158,12 @@ bool Node::read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int6
   const TouchProbe& probe = probes_[index];
   switch (base.index) {
     case 0x2150:
-      if (base == object::kAutoTune) value = feedback.tune_state;
+      value = feedback.tune_state;
       if (base == object::kMotorCurrent) value = measures_ ? feedback.current_ma : told_current(axis);
       if (base == object::kStageTemperature) value = feedback.temperature_dc;
       return true;
     case 0x2160: {
-      const int i = &axis == &axes_[0] ? 0 : 1;
+      const int i = static_cast<int>(index);
       if (base == object::kScaleCorrection) {
         value = whole_counts(correction(now_, i));
         return true;
@@ -171,11 +171,11 @@ bool Node::read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int6
       const auto home = axis.scale_at_home();
       const bool at_home = base == object::kScaleHomeLatch;
       if (!scale_fitted(i) || scale_lost_[index] || (at_home && !home)) return false;
-      value = at_home ? *home : directed_scales()[static_cast<std::size_t>(i)];
+      value = at_home ? *home : directed_scales()[index];
       return true;
     }
     case 0x2170:
-      if (base == object::kDriverState) value = drivers_[index].state;
+      value = drivers_[index].state;
       if (base == object::kDriverStatus) value = drivers_[index].status;
       if (base == object::kStallGuard) value = drivers_[index].stall_guard;
       if (base == object::kDriverFound) value = drivers_[index].found;
@@ -184,7 +184,7 @@ bool Node::read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int6
       value = feedback.supply_mv;
       return true;
     case 0x2140:
-      if (base == object::kPositionKnown) value = axis.position_known() ? 1 : 0;
+      value = axis.position_known() ? 1 : 0;
       if (base == object::kStreamPosition) value = axis.position(now_);
       if (base == object::kHomeLatch) value = axis.home_latch();
       return true;
@@ -244,8 +244,6 @@ bool Node::read_axis_object(const DriveAxis& axis, ObjectAddress base, std::int6
 
 std::int64_t Node::counter_value(NodeCounter counter) const {
   const PathMotion::Counters& path = path_.counters();
-  const std::uint32_t own =
-      counters_[std::min<std::size_t>(static_cast<std::size_t>(counter), counters_.size() - 1)];
   switch (counter) {
     case NodeCounter::kSyncLost:
       return path.sync_lost;
@@ -282,7 +280,7 @@ std::int64_t Node::counter_value(NodeCounter counter) const {
     case NodeCounter::kHomingErrors:
       return axes_[0].homing_errors() + axes_[1].homing_errors();
     default:
-      return own;
+      return counters_[static_cast<std::size_t>(counter)];
   }
 }
 

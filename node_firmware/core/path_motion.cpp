@@ -65,12 +65,10 @@ bool PathMotion::on_rate_command(const CanFrame& frame, LocalTime now, bool clea
   return taken || outcome == Outcome::kDuplicate;
 }
 
-bool PathMotion::clear_stop(LocalTime now) {
-  if (!path_.stop_latched()) return false;
+void PathMotion::clear_stop(LocalTime now) {
+  if (!path_.stop_latched()) return;
   const RateCommand clear{.kind = RateCommand::Kind::kClear, .full_ramp_2ms = 1, .start = clock_.to_bus(now)};
-  if (path_.apply(clear, clock_.to_bus(now)) != PathClock::Outcome::kScheduled) return false;
-  error_flags_ = 0;
-  return true;
+  if (path_.apply(clear, clock_.to_bus(now)) == PathClock::Outcome::kScheduled) error_flags_ = 0;
 }
 
 void PathMotion::count_late(PathClock::Outcome outcome, std::uint32_t& counter) {
@@ -91,19 +89,17 @@ void PathMotion::on_peer_emcy(const CanFrame& frame, LocalTime now) {
 }
 
 SegmentStream::Verdict PathMotion::on_record(std::uint64_t raw, LocalTime now) {
-  advance_to(now);
   const Verdict verdict = stream_.push(raw, tau(now));
   judge(verdict, now);
   if (!stream_.waits_for_order())
     order_deadline_ = LocalTime::max();
   else if (verdict == Verdict::kAccepted || order_deadline_ == LocalTime::max())
     order_deadline_ = now + kOrderPatience;
-  if (verdict == Verdict::kAccepted && starvation_check_ == LocalTime::max()) plan_starvation_check(now);
+  if (starvation_check_ == LocalTime::max()) plan_starvation_check(now);
   return verdict;
 }
 
 SegmentStream::Verdict PathMotion::on_checkpoint(std::uint64_t raw, LocalTime now) {
-  advance_to(now);
   const Verdict verdict = stream_.check(raw);
   if (verdict != Verdict::kStaleCheckpoint) judge(verdict, now);
   return verdict;
@@ -203,15 +199,15 @@ std::int64_t PathMotion::ticks_to_stop(std::uint64_t rate_q32) const {
 
 bool PathMotion::starved(LocalTime now) const {
   const std::int64_t stop_tau = tau(now).count() + ticks_to_stop(rate_q32(now));
-  return stream_.open() && stop_tau > stream_.tail_start().count() && stop_tau > stream_.horizon().count();
+  return stream_.open() && stop_tau > stream_.horizon().count();
 }
 
 // A lower bound of when starved() may turn true: path time passes at most as fast as time.
 void PathMotion::plan_starvation_check(LocalTime now) {
   starvation_check_ = LocalTime::max();
   if (!stream_.open() || at_rest(now) || path_.stop_latched()) return;
-  const std::int64_t end = std::max(stream_.horizon(), stream_.tail_start()).count();
-  const std::int64_t slack = end - tau(now).count() - ticks_to_stop(std::uint64_t{1} << 32);
+  const std::int64_t slack =
+      stream_.horizon().count() - tau(now).count() - ticks_to_stop(std::uint64_t{1} << 32);
   // 62 ns a tick of 62.5: also for a crystal that is fast by 8000 ppm.
   starvation_check_ = now + std::max(kLook, LocalTime{slack * 62});
 }

@@ -46,10 +46,10 @@ class PathMotion {
   void on_stamp(const CanFrame& frame, LocalTime now);
   /// false: malformed, or refused (latched, not at rest).
   bool on_rate_command(const CanFrame& frame, LocalTime now, bool clear_allowed);
-  /// Lifts the latch without the gateway; false: nothing latched, or not at rest.
-  bool clear_stop(LocalTime now);
+  /// Lifts the latch without the gateway, at rest.
+  void clear_stop(LocalTime now);
   void on_peer_emcy(const CanFrame& frame, LocalTime now);
-  /// What became of it; errors raise an alarm.
+  /// What became of it; errors raise an alarm. Behind on_time(now).
   SegmentStream::Verdict on_record(std::uint64_t raw, LocalTime now);
   SegmentStream::Verdict on_checkpoint(std::uint64_t raw, LocalTime now);
   /// Drops the queue; false: path time moves while motion is queued.

@@ -87,7 +87,7 @@ SegmentStream::Verdict SegmentStream::admit(const Segment& record, PathTime now,
     if (!next.resting) return Verdict::kStartInMotion;
     const bool passed = record.start_units * kPathTicksPerUnit <= now.count();
     if (passed || record.start_units < next.knot_units) return Verdict::kLateStart;
-    next.start_units = next.knot_units = record.start_units;
+    next.knot_units = record.start_units;
     next.resting = false;
     return Verdict::kAccepted;
   }
@@ -137,10 +137,10 @@ SegmentStream::Verdict SegmentStream::check(std::uint64_t raw) {
   // Its record waits in the queue: walk there from the knot that is executed.
   AxisState state = run_.knot[checkpoint.axis];
   for (int i = 0; i < run_.size - behind; ++i) {
-    const auto record = decode_segment(records_[index_of((run_.head + i) % kCapacity)]);
-    if (record && record->duration != 0)
-      state =
-          advance(state, record->acceleration[checkpoint.axis], record->duration, shift_[checkpoint.axis]);
+    // Of duration 0, and so no step: START and END.
+    const Segment record =
+        decode_segment(records_[index_of((run_.head + i) % kCapacity)]).value_or(Segment{});
+    state = advance(state, record.acceleration[checkpoint.axis], record.duration, shift_[checkpoint.axis]);
   }
   return verdict(state);
 }

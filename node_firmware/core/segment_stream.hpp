@@ -83,8 +83,6 @@ class SegmentStream {
   /// Motion without END is queued: it must be followed by more before horizon().
   bool open() const { return !tail_.resting; }
   PathTime horizon() const { return PathTime{tail_.knot_units * kPathTicksPerUnit}; }
-  /// When the motion at the end of the queue begins or began.
-  PathTime tail_start() const { return PathTime{tail_.start_units * kPathTicksPerUnit}; }
   const AxisState& tail_state(int axis) const { return tail_.axes[static_cast<std::size_t>(axis)]; }
   std::uint8_t next_sequence() const { return next_sequence_; }
   /// What the queue comes to, in 8 bits, for who has sent it.
@@ -117,7 +115,6 @@ class SegmentStream {
   struct Tail {
     std::array<AxisState, kAxesPerNode> axes{};
     std::int64_t knot_units = 0;
-    std::int64_t start_units = 0;
     bool resting = true;
   };
   struct Pending {

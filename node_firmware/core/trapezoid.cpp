@@ -144,7 +144,6 @@ bool solve_even(const Problem& p, Durations& d) {
   if (whole < 2) return false;
   d.first = std::min(kShortest, whole / 2);
   d.last = whole - d.first;
-  d.cruise = 0;
   return solve_peak(p, d);
 }
 
@@ -173,10 +172,9 @@ void Trapezoid::hold(std::int64_t position) {
   end_time_ = std::numeric_limits<ProfileTicks>::min();
 }
 
-void Trapezoid::begin(ProfileTicks start, ProfileState from) {
+void Trapezoid::begin(ProfileTicks start) {
   count_ = 0;
   end_time_ = start;
-  end_ = from;
 }
 
 void Trapezoid::add(ProfileTicks length, std::int64_t position, std::int64_t velocity,
@@ -205,14 +203,14 @@ ProfileState Trapezoid::brake(ProfileState from, std::int64_t deceleration) {
 
 void Trapezoid::run(ProfileTicks start, ProfileState from, std::int64_t target, const ProfileLimits& limits,
                     bool to_rest) {
-  begin(start, from);
+  begin(start);
   Durations d;
   Problem problem = problem_from(from, target, limits, to_rest);
   if (!solve(problem, d)) {
     from = brake(from, problem.deceleration);
     problem = problem_from(from, target, limits, true);
     // Where it stands is where it goes: found at once, not by all that is tried in vain.
-    if (problem.distance == 0 || !solve(problem, d)) return hold_after(from);
+    if (!solve(problem, d)) return hold_after(from);
   }
   const std::int64_t sign = target >= from.position ? 1 : -1;
   const std::int64_t v0 = sign * problem.v0;

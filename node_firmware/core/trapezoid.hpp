@@ -62,7 +62,7 @@ class Trapezoid {
     int shift = 0;
   };
   const Phase& phase_at(ProfileTicks time) const;
-  void begin(ProfileTicks start, ProfileState from);
+  void begin(ProfileTicks start);
   void run(ProfileTicks start, ProfileState from, std::int64_t target, const ProfileLimits& limits,
            bool to_rest);
   void hold_after(ProfileState at_rest);

@@ -71,7 +71,8 @@ std::optional<CanFrame> EmcyProducer::next_frame(LocalTime now, std::uint8_t nod
 
 LocalTime EmcyProducer::next_deadline() const {
   if (count_ == 0) return LocalTime::max();
-  return items_[0].urgent ? LocalTime::min() : allowed_;
+  // The first one of all is allowed since ever, and not urgent for that.
+  return items_[0].urgent ? LocalTime::min() : std::max(allowed_, LocalTime{0});
 }
 
 std::uint8_t EmcyProducer::error_register() const {

@@ -198,5 +198,37 @@ TEST_F(DriveTest, ACyclicWayWithinTheLimitsIsReachedAtEverySync) {
   EXPECT_EQ(bench.read(kId, 0x6064, 0), bench.read(kId, 0x607A, 0));
 }
 
+TEST_F(DriveTest, PeriodsOfSyncAreTheSameInWhateverUnitTheyAreTold) {
+  struct Period {
+    int value, exponent;
+  };
+  const std::vector<std::vector<Period>> same{
+      {{100, -3}, {10, -2}, {1, -1}}, {{10, -1}, {1, 0}, {100, -2}}, {{100, -1}, {10, 0}, {1, 1}, {1, 2}}};
+  std::vector<std::vector<double>> of_period;
+  for (const auto& periods : same) {
+    std::vector<double> first;
+    for (const Period& period : periods) {
+      Bench other({{.id = kId, .plant = {plant(), plant(2)}}});
+      other.write(kId, 0x60C2, 1, 1, period.value);
+      other.write(kId, 0x60C2, 2, 1, period.exponent);
+      other.write(kId, 0x6065, 0, 4, 0xFFFF'FFFF);
+      other.enable(kId, 0, 8);
+      other.send(nmt_frame(NmtCommand::kStart, kAllNodes));
+      other.start_sync(100ms);
+      std::vector<double> way;
+      for (int i = 1; i < 12; ++i) {
+        other.write(kId, 0x607A, 0, 4, i * 1'000);
+        other.run(99ms - (other.now.count() % 100'000'000) * 1ns + 1ms);
+        way.push_back(std::ldexp(static_cast<double>(other.position(0, 0)), -32));
+      }
+      if (first.empty()) first = way;
+      EXPECT_EQ(way, first) << period.value << "e" << period.exponent;
+    }
+    of_period.push_back(first);
+  }
+  EXPECT_NE(of_period[0], of_period[1]);
+  EXPECT_NE(of_period[1], of_period[2]);
+}
+
 }  // namespace
 }  // namespace kinebus::testing_bench

@@ -22,14 +22,14 @@ std::vector<NodeSetup> one_scale() {
 }
 
 /// Homed, and the loop closed: 1 mm at most, 5 mm/s, which is fast.
-void close_loop(Bench& bench, std::int64_t most_counts) {
+void close_loop(Bench& bench, std::int64_t most_counts, std::int64_t home_offset = 0) {
   bench.write(kScaleNode, kScaleA, 1, 1, 1);
   bench.write(kScaleNode, kScaleA, 6, 4, kCountsAMm * 65536 / 100);
   bench.write(kScaleNode, kScaleA, 8, 4, 5 * kCountsAMm);
   bench.write(kScaleNode, kScaleA, 7, 4, most_counts);
   bench.write(kScaleNode, 0x2130, 1, 1, 1);
   bench.write(kScaleNode, 0x6098, 0, 1, 22);
-  bench.write(kScaleNode, 0x607C, 0, 4, 0);
+  bench.write(kScaleNode, 0x607C, 0, 4, home_offset);
   bench.enable(kScaleNode, 0, 6);
   bench.write(kScaleNode, 0x6040, 0, 2, 0x1F);
   bench.run(20s);
@@ -123,10 +123,14 @@ TEST(NodeScale, SilentWhileItLeadsTheAxisItStopsWhatMoves) {
   bench.run(300ms);
   EXPECT_FALSE(bench.node(0).path().stop_latched());
   bench.plant_on = false;  // nobody counts any more
-  bench.node(0).lose_scale(0);
+  for (int i = 0; i < 3; ++i) {
+    bench.node(0).lose_scale(0);
+    bench.run(1ms);
+  }
   bench.run(100ms);
   EXPECT_TRUE(bench.node(0).path().stop_latched());
   EXPECT_EQ(get_u16_le(bench.last(0x083)->data), emcy::kIncrementalEncoder);
+  EXPECT_EQ(bench.read(kScaleNode, 0x2120, static_cast<std::uint8_t>(NodeCounter::kDriveFaults)), 1);
 }
 
 TEST(NodeScale, SilentItStopsNobodyWhoDoesNotMoveOrIsNotLedByIt) {
@@ -189,6 +193,32 @@ TEST(NodeScale, ClosedTheLoopLeadsTheMotorToWhereTheScaleHasTheAxisAndTheCommand
   EXPECT_EQ(bench.position(0, 0), there);
 }
 
+TEST(NodeScale, WhereZeroIsDoesNotMatterToTheLoop) {
+  for (const std::int64_t offset : {5'000, -5'000}) {
+    Bench bench(one_scale());
+    close_loop(bench, kCountsAMm, offset);
+    go_to(bench, 150 * kCountsAMm);
+    EXPECT_FALSE(bench.node(0).path().stop_latched());
+    EXPECT_NEAR(static_cast<double>(bench.read(kScaleNode, kScaleA, 9)),
+                -0.0014 * static_cast<double>(150 * kCountsAMm + offset), 15);
+  }
+}
+
+TEST(NodeScale, OpenedOnItsWayTheMotorIsLedNoFarther) {
+  Bench bench(one_scale());
+  close_loop(bench, kCountsAMm);
+  bench.write(kScaleNode, kScaleA, 8, 4, 20);
+  go_to(bench, 150 * kCountsAMm, 5s);
+  const std::int64_t before = bench.node(0).correction(bench.local(0), 0);
+  bench.run(100ms);
+  ASSERT_NE(bench.node(0).correction(bench.local(0), 0), before) << "it is still led";
+  bench.write(kScaleNode, kScaleA, 7, 4, 0);
+  bench.run(20ms);
+  const std::int64_t there = bench.node(0).correction(bench.local(0), 0);
+  bench.run(3s);
+  EXPECT_EQ(bench.node(0).correction(bench.local(0), 0), there);
+}
+
 TEST(NodeScale, LedByItTheMotorIsNeverFasterThanItsRateAndHasNoStep) {
   Bench bench(one_scale());
   close_loop(bench, kCountsAMm);
@@ -217,6 +247,10 @@ TEST(NodeScale, OneThatStandsWhileTheAxisMovesStopsItOnThePathAndNothingLosesPow
   EXPECT_TRUE(bench.node(0).path().stop_latched());
   EXPECT_TRUE(bench.was_seen(0x083, from));
   EXPECT_EQ(get_u16_le(bench.last(0x083)->data), emcy::kIncrementalEncoder);
+  EXPECT_EQ(std::ranges::count_if(bench.seen, [](const Bench::Seen& seen) { return seen.frame.id == 0x083; }),
+            1)
+      << "told once";
+  EXPECT_EQ(bench.read(kScaleNode, 0x2120, static_cast<std::uint8_t>(NodeCounter::kDriveFaults)), 1);
   EXPECT_LT(bench.read(kScaleNode, 0x6064, 0), 10 * kCountsAMm) << "0.7 mm and the way of the stop";
   EXPECT_EQ(bench.statusword(kScaleNode, 0) & 0x6F, 0x27) << "it holds";
 }

@@ -50,6 +50,7 @@ TEST_F(SessionTest, NmtOfAnotherDeviceInMotionIsRefusedEachToldOnceAndTheMotionG
   EXPECT_EQ(refused(1), 3);
   EXPECT_EQ(refused(2), 4);
   for (std::uint8_t id = 1; id <= kNodes; ++id) EXPECT_EQ(told(id), refused(id)) << int{id};
+  EXPECT_EQ(bench.read(1, 0x1001, 0), 0) << "in the history alone";
   // At rest everybody may.
   bench.stranger_sends(frame_of("000#0202"));
   bench.run(10ms);
