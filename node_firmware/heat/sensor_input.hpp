@@ -51,7 +51,8 @@ class SensorInput {
   /// True: the temperature is what the sensor says now. A heater has power only then.
   bool good() const { return good_ && fault_ == SensorFault::kNone; }
   SensorFault fault() const { return fault_; }
-  bool frozen() const { return same_ >= kFrozen / kSamplePeriod; }
+  /// A MAX31865 has no sum to move, and 15 bits: it may say the same for long.
+  bool frozen() const { return setup_.path == SensorPath::kDivider && same_ >= kFrozen / kSamplePeriod; }
 
  private:
   SensorFault judge(std::uint32_t ratio, std::int32_t mc, bool broken) const;

@@ -1,0 +1,56 @@
+#pragma once
+// A MAX31865 with a resistance thermometer at its clamps, from the facts of its data sheet, and stricter:
+// what that only warns of is a mistake here, times are the longest, and a conversion that was not waited for
+// gives what was before.
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <random>
+
+#include "vcan_tests/emulator/peripherals/spi.hpp"
+
+namespace kinebus::emulator {
+
+class Max31865Chip final : public SpiDevice {
+ public:
+  enum class Wires : std::uint8_t { kWhole, kElementOpen, kElementShort, kForceOpen };
+
+  void select(bool selected, Cycle now) override;
+  std::uint16_t exchange(std::uint16_t sent, Cycle now) override;
+  /// Its supply has sagged.
+  void reset();
+
+  std::function<double()> ohm = [] { return 100.0; };  ///< of the element
+  double reference_ohm = 430;
+  int wires = 2;  ///< that lead to the element: 2, 3, 4
+  double lead_ohm = 0;
+  Wires state = Wires::kWhole;
+  bool voltage = false;  ///< an input is beyond the supply
+  bool absent = false;   ///< nobody drives the line back
+  /// As the master has set it.
+  std::function<int()> mode = [] { return 3; };
+  std::function<double()> clock_hz = [] { return 4e6; };
+
+  /// SPI mode or clock that it does not take, too soon after the select, settings that its sheet forbids.
+  std::uint64_t mistakes() const { return mistakes_; }
+  std::uint64_t conversions() const { return conversions_; }
+
+ private:
+  std::uint8_t read(std::uint8_t address);
+  void write(std::uint8_t address, std::uint8_t value, Cycle now);
+  void settle(Cycle now);
+  void convert();
+  void find_breaks();
+  bool automatic() const;
+
+  std::array<std::uint8_t, 8> registers_ = at_power_up();
+  static std::array<std::uint8_t, 8> at_power_up() { return {0, 0, 0, 0xFF, 0xFF, 0, 0, 0}; }
+  std::mt19937 random_{5};
+  bool selected_ = false, first_ = true;
+  std::uint8_t address_ = 0;
+  Cycle selected_at_ = 0, released_at_ = -kCoreHz, converted_at_ = kNever, looked_at_ = kNever;
+  std::uint64_t mistakes_ = 0, conversions_ = 0;
+};
+
+}  // namespace kinebus::emulator
