@@ -24,6 +24,11 @@ void Max31865Chip::reset() {
   selected_ = false;
 }
 
+bool Max31865Chip::open() const {
+  constexpr double kNoCurrent_ohm = 1e6;
+  return state == Wires::kElementOpen || ohm() > kNoCurrent_ohm;
+}
+
 bool Max31865Chip::automatic() const {
   return (registers_[kSettings] & kAutomatic) != 0;
 }
@@ -40,6 +45,7 @@ void Max31865Chip::select(bool selected, Cycle now) {
 /// What has come to its end until now.
 void Max31865Chip::settle(Cycle now) {
   const bool slow = (registers_[kSettings] & k50Hz) != 0;
+  if (voltage) registers_[kFaults] |= kVoltage;
   while (converted_at_ <= now) {
     convert();
     converted_at_ = automatic() ? converted_at_ + of_us(slow ? 21'000 : 17'600) : kNever;
@@ -49,21 +55,22 @@ void Max31865Chip::settle(Cycle now) {
     looked_at_ = kNever;
     registers_[kSettings] &= static_cast<std::uint8_t>(~kCycle);
   }
-  if (voltage) registers_[kFaults] |= kVoltage;
 }
 
 void Max31865Chip::convert() {
+  // It converts no more until that fault is forgotten, or nothing.
+  if (stands || (registers_[kFaults] & kVoltage) != 0 || (registers_[kSettings] & kBias) == 0) return;
   ++conversions_;
-  if (voltage || (registers_[kSettings] & kBias) == 0) return;  // it converts no more, or nothing
   double leads = wires == 2 ? 2 * lead_ohm : 0;
   // Told the wrong number of wires it takes one lead too many, or too few, off.
   const bool told_three = (registers_[kSettings] & kThreeWires) != 0;
   if (wires == 3 && !told_three) leads = lead_ohm;
   if (wires != 3 && told_three) leads -= lead_ohm;
   double share = (ohm() + leads) / reference_ohm;
-  if (state == Wires::kElementOpen) share = 2;
+  if (open()) share = 2;
   if (state == Wires::kElementShort) share = 0;
-  if (state == Wires::kForceOpen) share = 0.5;  // nothing that means anything
+  if (state == Wires::kForceOpen) share = indeterminate.value_or(last_share_);
+  last_share_ = share;
   std::normal_distribution<double> noise(0, 0.3);
   const double steps = std::floor(share * 32768 + noise(random_));
   const auto code = static_cast<std::uint16_t>(std::clamp(steps, 0.0, 32767.0));
@@ -75,8 +82,8 @@ void Max31865Chip::convert() {
 }
 
 void Max31865Chip::find_breaks() {
-  if (state == Wires::kElementOpen) registers_[kFaults] |= kReferenceHigh;
-  if (state == Wires::kForceOpen) registers_[kFaults] |= kReferenceLow | kInputLow;
+  if (open() || state == Wires::kForceOpen) registers_[kFaults] |= kReferenceHigh;
+  if (state == Wires::kGrounded) registers_[kFaults] |= kReferenceLow | kInputLow;
 }
 
 std::uint8_t Max31865Chip::read(std::uint8_t address) {
@@ -93,8 +100,8 @@ void Max31865Chip::write(std::uint8_t address, std::uint8_t value, Cycle now) {
     return;
   }
   const std::uint8_t before = registers_[kSettings];
-  // The notch must not move while it converts on and on.
-  if (automatic() && (value & kAutomatic) != 0 && ((before ^ value) & k50Hz) != 0) ++mistakes_;
+  // The notch must not move while it converts on and on, nor by the word that ends that.
+  if (automatic() && ((before ^ value) & k50Hz) != 0) ++mistakes_;
   const bool forgets = (value & kForget) != 0;
   if (forgets && (value & (kOneShot | kCycle)) != 0) ++mistakes_;
   // One-shots and manual cycles are not modelled; none begins without bias or in automatic mode.
@@ -107,12 +114,12 @@ void Max31865Chip::write(std::uint8_t address, std::uint8_t value, Cycle now) {
   if (looks) looked_at_ = now + of_us(600);
   if (!automatic())
     converted_at_ = kNever;
-  else if ((before & kAutomatic) == 0)
+  else if ((before & kAutomatic) == 0 || writes_restart)
     converted_at_ = now + of_us((value & k50Hz) != 0 ? 66'000 : 55'000);
 }
 
 std::uint16_t Max31865Chip::exchange(std::uint16_t sent, Cycle now) {
-  if (!selected_ || absent) return 0xFF;
+  if (!selected_ || absent) return absent && line_low ? 0 : 0xFF;
   const double hz = clock_hz();
   if ((mode() != 1 && mode() != 3) || hz > 5e6) ++mistakes_;
   settle(now);
