@@ -42,6 +42,8 @@ double tenths(double celsius) {
 void describe(Settings& settings, std::size_t n, const SensorWiring& sensor, double limit_c) {
   settings.set(kSensorPath, n, sensor.max31865 ? 1 : 0);
   settings.set(kReference, n, 1000 * sensor.reference_ohm);
+  // A node that has none may not know of it, nor of the mains.
+  if (sensor.max31865) settings.set(kSensorWires, n, sensor.wires);
   settings.set(kNominalResistance, n, 1000 * sensor.nominal_ohm);
   settings.set(kBeta, n, sensor.beta_k);
   if (sensor.element == SensorElement::kPoints) {
@@ -151,6 +153,8 @@ void add_heat_settings(const MachineDescription& machine, std::uint8_t node_id,
     settings.set(kFanHeater, n, cools[n]->place.channel);
     settings.set(kFanPulses, n, cools[n]->wiring.fan_pulses);
   }
+  if (std::any_of(sensors.begin(), sensors.end(), [](const auto* s) { return s != nullptr && s->max31865; }))
+    settings.set(kMains, 0, machine.thermal.mains_hz);
   for (std::size_t n = 0; n < kHeatSensors; ++n)
     settings.set(kSensorType, n, sensors[n] == nullptr ? 0 : static_cast<double>(sensors[n]->element));
 }

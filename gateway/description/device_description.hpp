@@ -76,6 +76,7 @@ struct SensorWiring {
   SensorElement element = SensorElement::kGeneric3950;
   bool max31865 = false;         ///< measured by that converter; else by a divider
   double reference_ohm = 4700;   ///< pull-up, or the converter's reference resistor
+  int wires = 2;                 ///< of that converter, to the element: 2, 3 or 4
   double nominal_ohm = 100'000;  ///< of kBeta, at 25 C
   int beta_k = 3950;             ///< of kBeta
   /// Of kPoints: a thermistor by its resistance at three temperatures.
@@ -260,6 +261,7 @@ struct MeshDescription {
 struct ThermalDescription {
   double ambient_c = 23;
   double min_extrude_c = 170;  ///< E does not move forward below it
+  int mains_hz = 50;           ///< whose hum converters of resistance thermometers take away: 50 or 60
   /// Without a heartbeat of the gateway for so long heat nodes fall back to what is safe.
   std::chrono::milliseconds gateway_lost{5000};
   enum class After : std::uint8_t { kKeep, kOff };

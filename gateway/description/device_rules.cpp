@@ -40,6 +40,8 @@ class DeviceRules {
       : d_(description), broken_(broken) {}
 
   void judge() {
+    require(d_.thermal.mains_hz == 50 || d_.thermal.mains_hz == 60, {"thermal.mains_hz"},
+            number(d_.thermal.mains_hz), say("50 or 60"));
     for (const NodeDescription& node : d_.nodes) inputs(node);
     for (const JointDescription& joint : d_.joints) axes(joint);
     std::map<HeaterId, std::string> heaters;

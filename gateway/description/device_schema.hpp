@@ -51,6 +51,7 @@ void visit_sensor(V& v, SensorWiring& s) {
   // A pull-up is usually 4700 Ohm; what the converter has, 430 or 4300, is on its board.
   v.number("sensor_reference_ohm", s.reference_ohm, {10, 2e6},
            s.max31865 ? Need::kRequired : Need::kOptional);
+  if (s.max31865) v.integer("sensor_wires", s.wires, 2, 4, Need::kOptional);
   if (s.element != SensorElement::kBeta && s.element != SensorElement::kPoints) return;
   v.unless_zero("sensor_highest_c", s.highest_given_c, {30, 600}, 1);
   if (s.element == SensorElement::kPoints) {
@@ -146,6 +147,7 @@ void visit_devices(V& v, MachineDescription& d) {
   v.table("thermal", Need::kOptional, [&] {
     v.number("ambient_c", d.thermal.ambient_c, {-20, 60}, Need::kOptional);
     v.number("min_extrude_c", d.thermal.min_extrude_c, {0, 500}, Need::kOptional);
+    v.integer("mains_hz", d.thermal.mains_hz, 50, 60, Need::kOptional);
     v.duration("gateway_lost_ms", d.thermal.gateway_lost, 500, 60'000, Need::kOptional);
     v.choice("on_stop", d.thermal.on_stop, kAfters, Need::kOptional);
     v.choice("on_cancel", d.thermal.on_cancel, kAfters, Need::kOptional);

@@ -4789,6 +4789,10 @@
         <translation>false: آن مبدل pt100 و pt1000 را اندازه می‌گیرد</translation>
     </message>
     <message>
+        <source>50 or 60</source>
+        <translation>50 یا 60</translation>
+    </message>
+    <message>
         <source>%1 at %2 C</source>
         <translation>%1 در %2 C</translation>
     </message>

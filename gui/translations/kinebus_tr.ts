@@ -4789,6 +4789,10 @@
         <translation>false: o çevirici pt100 ve pt1000 ölçer</translation>
     </message>
     <message>
+        <source>50 or 60</source>
+        <translation>50 veya 60</translation>
+    </message>
+    <message>
         <source>%1 at %2 C</source>
         <translation>%2 C’de %1</translation>
     </message>

@@ -3,22 +3,14 @@
 // meter. Without one, or when it falls silent, it is looked for again.
 
 #include <array>
-#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <span>
 
+#include "node_firmware/board/byte_bus.hpp"
 #include "node_firmware/heat/vibration_meter.hpp"
 
 namespace kinebus {
-
-/// SPI in mode 3 of at most 5 MHz, bytes both ways, and the chip's select line.
-template <typename T>
-concept ByteBus = requires(T& bus, std::uint8_t byte) {
-  bus.select(true);
-  { bus.exchange(byte) } -> std::same_as<std::optional<std::uint8_t>>;
-  bus.wait_us(1u);
-};
 
 template <ByteBus Bus>
 class Adxl345 {

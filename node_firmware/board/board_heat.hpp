@@ -59,7 +59,9 @@ class BoardHeat {
 
   /// With this id from now on; set points and faults begin anew.
   void begin(const heat::HeatNodeOptions& options, LocalTime now, std::span<const std::uint8_t> stored) {
-    node_.emplace(options, now, stored);
+    heat::HeatNodeOptions of_this_board = options;
+    of_this_board.max31865 = kMax31865Sensors;
+    node_.emplace(of_this_board, now, stored);
     if constexpr (kMeasuresVibration)
       if (auto* chip = driver_.accelerometer()) node_->set_vibration(&chip->unit());
     next_sample_ = hearing_due_ = now;
@@ -159,11 +161,25 @@ class BoardHeat {
       return false;
     }
   }
+  /// Sensors that may be measured by a MAX31865, a bit each; of those the driver has max31865(sensor).
+  static constexpr std::uint8_t kMax31865Sensors = [] {
+    if constexpr (requires { Driver::kMax31865Sensors; })
+      return Driver::kMax31865Sensors;
+    else
+      return std::uint8_t{0};
+  }();
+  std::optional<std::uint32_t> take_ratio(LocalTime now, int sensor) {
+    const heat::SensorSetup& setup = node_->setup_of(sensor);
+    if (setup.path != heat::SensorPath::kMax31865) return driver_.take_ratio(sensor);
+    if constexpr (kMax31865Sensors != 0)
+      if (auto* chip = driver_.max31865(sensor)) return chip->take(now, setup.wiring);
+    return std::nullopt;
+  }
   void sample(LocalTime now) {
     next_sample_ += heat::SensorInput::kSamplePeriod;
     if (next_sample_ <= now) next_sample_ = now + heat::SensorInput::kSamplePeriod;
     for (int i = 0; i < Driver::kSensors; ++i)
-      if (const auto ratio = driver_.take_ratio(i)) node_->on_sample(now, i, *ratio);
+      if (const auto ratio = take_ratio(now, i)) node_->on_sample(now, i, *ratio);
     for (std::size_t i = 0; i < filament_.size(); ++i)
       node_->on_filament(static_cast<int>(i), filament_[i].level, std::exchange(filament_[i].edges, 0));
     node_->on_probe_line(now, probe_line_);

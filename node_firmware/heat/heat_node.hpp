@@ -38,6 +38,7 @@ struct HeatNodeOptions {
   /// The node has its id from its board, and LSS is another's business.
   bool id_from_board = false;
   std::uint32_t program_crc = 0;  ///< 1F56h; 0: a program that no boot loader has started for this node alone
+  std::uint8_t max31865 = 0xFF;   ///< sensors that may be measured by one, a bit each
 };
 
 class HeatNode final : private ObjectOwner {
@@ -102,6 +103,8 @@ class HeatNode final : private ObjectOwner {
   }
   /// Something heats, or is to: what holds the processor up has to wait.
   bool heats() const { return any_heat(); }
+  /// How it is to be measured.
+  const SensorSetup& setup_of(int sensor) const { return sensors_[static_cast<std::size_t>(sensor)].setup(); }
   /// 1F51h = 0: the program is to give way to the boot loader when its answer is on the bus. Nothing heats.
   bool program_stop_requested() const { return program_stop_requested_; }
   HeaterFault fault(int heater) const { return heaters_[static_cast<std::size_t>(heater)].fault(); }
@@ -135,6 +138,8 @@ class HeatNode final : private ObjectOwner {
     objects_.set_value({static_cast<std::uint16_t>(first.value + n)}, to);
   }
   SensorSetup sensor_setup(std::size_t n) const;
+  /// The board has what that sensor is to be measured by.
+  bool has_path(std::size_t n) const;
   HeaterSettings heater_settings(std::size_t n) const;
   /// 0..; -1: none.
   int sensor_number(std::size_t heater) const;

@@ -16,7 +16,8 @@ std::int32_t milli(std::int64_t tenths_of_a_degree) {
 }
 
 bool is_sensor_setting(std::uint16_t index) {
-  return (index >= kSensorPath.index && index <= kHighestPlausible.index) || index == kSensorType.index;
+  return (index >= kSensorPath.index && index <= kHighestPlausible.index) || index == kSensorWires.index ||
+         index == kMains.index || index == kSensorType.index;
 }
 /// What safety rests on. Which heater the flow is of is none of it: that changes with the tool of a job, and
 /// power told for a heater stays within what its own watch and limit allow.
@@ -121,9 +122,14 @@ AbortCode HeatNode::check_setting(const ObjectEntry& entry, std::int64_t to) {
 AbortCode HeatNode::inconsistent(const ObjectEntry& entry) const {
   const std::uint16_t index = entry.address.index;
   // A sensor is described first; its type, last, switches it on.
-  if (const SensorSetup setup = sensor_setup(is_sensor_setting(index) ? place_of(entry.address) : 0);
-      is_sensor_setting(index) && setup.kind != SensorKind::kNone) {
-    if (Linearisation::check(setup) != SetupError::kNone) return AbortCode::kInvalidValue;
+  if (is_sensor_setting(index)) {
+    const std::size_t n = place_of(entry.address);
+    if (value(heat_slot_of(kSensorType), n) != 0 && !has_path(n)) return AbortCode::kInvalidValue;
+    const std::int64_t mains = value(heat_slot_of(kMains));
+    if (mains != 50 && mains != 60) return AbortCode::kInvalidValue;
+    const SensorSetup setup = sensor_setup(n);
+    if (setup.kind != SensorKind::kNone && Linearisation::check(setup) != SetupError::kNone)
+      return AbortCode::kInvalidValue;
   }
   for (std::size_t i = 0; i < heaters_.size(); ++i) {
     const int sensor = sensor_number(i);

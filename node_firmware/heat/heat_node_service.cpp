@@ -39,12 +39,21 @@ std::uint16_t code_of(HeaterFault fault) {
 
 }  // namespace
 
+bool HeatNode::has_path(std::size_t n) const {
+  const auto path = static_cast<SensorPath>(value(heat_slot_of(kSensorPath), n));
+  return path != SensorPath::kMax31865 || (options_.max31865 >> n & 1) != 0;
+}
+
 SensorSetup HeatNode::sensor_setup(std::size_t n) const {
   const auto number = [&](ObjectSlot slot) { return static_cast<std::uint32_t>(value(slot, n)); };
   const auto mc = [&](ObjectSlot slot) { return static_cast<std::int32_t>(value(slot, n)) * kMcPerTenth; };
-  return {.kind = static_cast<SensorKind>(number(heat_slot_of(kSensorType))),
+  // Stored by a board that has what it needs, on one that has not: nothing is measured.
+  const std::uint32_t kind = has_path(n) ? number(heat_slot_of(kSensorType)) : 0;
+  return {.kind = static_cast<SensorKind>(kind),
           .path = static_cast<SensorPath>(number(heat_slot_of(kSensorPath))),
           .reference_mohm = number(heat_slot_of(kReference)),
+          .wiring = {.three_wires = number(heat_slot_of(kSensorWires)) == 3,
+                     .mains_60hz = value(heat_slot_of(kMains)) == 60},
           .nominal_mohm = number(heat_slot_of(kNominalResistance)),
           .beta_k = number(heat_slot_of(kBeta)),
           .points = {{{mc(heat_slot_of(kPointTemperature1)), number(heat_slot_of(kPointResistance1))},

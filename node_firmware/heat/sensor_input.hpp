@@ -36,6 +36,7 @@ class SensorInput {
   SetupError configure(const SensorSetup& setup, LocalTime now);
   /// Configured so already, or refused.
   bool is(const SensorSetup& setup) const { return setup_ == setup; }
+  const SensorSetup& setup() const { return setup_; }
   bool configured() const { return table_.kind() != SensorKind::kNone; }
 
   /// `ratio`: see Linearisation. `broken`: the converter itself says so.
@@ -51,7 +52,9 @@ class SensorInput {
   /// True: the temperature is what the sensor says now. A heater has power only then.
   bool good() const { return good_ && fault_ == SensorFault::kNone; }
   SensorFault fault() const { return fault_; }
-  bool frozen() const { return same_ >= kFrozen / kSamplePeriod; }
+  /// A MAX31865 has no sum to move, and 15 bits: it may say the same for long, and its part knows by itself
+  /// how old that is.
+  bool frozen() const { return setup_.path == SensorPath::kDivider && same_ >= kFrozen / kSamplePeriod; }
 
  private:
   SensorFault judge(std::uint32_t ratio, std::int32_t mc, bool broken) const;

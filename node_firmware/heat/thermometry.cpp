@@ -55,20 +55,16 @@ double ohm(std::uint32_t milli) {
   return milli / 1000.0;
 }
 
-// Celsius of a resistance thermometer: Newton's steps, from somewhere near, on a curve that is nearly
-// straight.
-double rtd_celsius(double nominal_ohm, double resistance, double near) {
-  double t = near;
-  for (int i = 0; i < 4; ++i) {
-    const double slope =
-        (callendar_van_dusen(nominal_ohm, t + 0.01) - callendar_van_dusen(nominal_ohm, t - 0.01)) / 0.02;
-    t -= (callendar_van_dusen(nominal_ohm, t) - resistance) / slope;
-  }
-  return t;
+constexpr double kHottest = 1200;  // what no table goes beyond
+
+// One of Newton's steps to the celsius of a resistance thermometer, on a curve that is nearly straight.
+double rtd_step(double nominal_ohm, double resistance, double near) {
+  return near -
+         (callendar_van_dusen(nominal_ohm, near) - resistance) / callendar_van_dusen_slope(nominal_ohm, near);
 }
 
 std::int32_t milli(double degrees) {
-  const double clipped = std::clamp(degrees, -273.0, 1200.0) * 1000;
+  const double clipped = std::clamp(degrees, -273.0, kHottest) * 1000;
   return static_cast<std::int32_t>(clipped < 0 ? clipped - 0.5 : clipped + 0.5);
 }
 
@@ -211,12 +207,17 @@ void Linearisation::fill(const Curve& curve) {
   const double width = (1 << shift_) / kCoordinateOne, from = start_ / kCoordinateOne;
   const double log_reference = natural_log(curve.reference), growth = exponential(width * kLn2);
   double resistance = logarithmic_ ? curve.reference * exponential(from * kLn2) : 0;
-  double near = (resistance / curve.nominal - 1) / 3.85e-3;
+  double near = (resistance / curve.nominal - 1) / 3.85e-3, before = near;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const double u = from + static_cast<double>(i) * width;
     if (curve.rtd) {
       if (!logarithmic_) resistance = curve.reference * u;
-      near = rtd_celsius(curve.nominal, resistance, near);
+      // As far on as the last one: 0.1 K beside it at most, and 1 uK after one step.
+      const double guess = near + (near - before);
+      before = near;
+      near = guess < kHottest ? rtd_step(curve.nominal, resistance, guess) : kHottest;
+      for (int first = 0; i == 0 && first < 6; ++first)
+        before = near = rtd_step(curve.nominal, resistance, near);
       if (logarithmic_) resistance *= growth;
       points_[i] = milli(near);
     } else {

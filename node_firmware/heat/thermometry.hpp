@@ -36,6 +36,13 @@ enum class SensorKind : std::uint16_t {
 
 enum class SensorPath : std::uint8_t { kDivider = 0, kMax31865 = 1 };
 
+/// How an element hangs on a MAX31865.
+struct RtdWiring {
+  bool three_wires = false;  ///< else two or four
+  bool mains_60hz = false;   ///< what its filter takes away; else 50 Hz
+  friend constexpr bool operator==(const RtdWiring&, const RtdWiring&) = default;
+};
+
 struct ThermistorPoint {
   std::int32_t temperature_mc = 0;
   std::uint32_t resistance_mohm = 0;
@@ -46,6 +53,7 @@ struct SensorSetup {
   SensorKind kind = SensorKind::kNone;
   SensorPath path = SensorPath::kDivider;
   std::uint32_t reference_mohm = 4'700'000;  ///< pull-up, or the MAX31865's reference resistor
+  RtdWiring wiring{};                        ///< kMax31865
   std::uint32_t nominal_mohm = 100'000'000;  ///< kCustomBeta: at 25 C
   std::uint32_t beta_k = 3950;               ///< kCustomBeta
   std::array<ThermistorPoint, 3> points{};   ///< kCustomThreePoints
@@ -92,12 +100,22 @@ class Linearisation {
   std::array<std::int32_t, kLines + 1> points_{};
 };
 
+namespace platinum {
+inline constexpr double kA = 3.9083e-3, kB = -5.775e-7, kC = -4.183e-12;
+}
 /// Resistance in Ohm of a resistance thermometer of 100 or 1000 Ohm (IEC 60751, Callendar-Van Dusen), -50 to
 /// 850 C.
 constexpr double callendar_van_dusen(double nominal_ohm, double celsius) {
-  constexpr double kA = 3.9083e-3, kB = -5.775e-7, kC = -4.183e-12;
+  using namespace platinum;
   const double below = celsius < 0 ? kC * (celsius - 100) * celsius * celsius * celsius : 0;
   return nominal_ohm * (1 + kA * celsius + kB * celsius * celsius + below);
+}
+
+/// Its slope, Ohm/K.
+constexpr double callendar_van_dusen_slope(double nominal_ohm, double celsius) {
+  using namespace platinum;
+  const double below = celsius < 0 ? kC * (4 * celsius - 300) * celsius * celsius : 0;
+  return nominal_ohm * (kA + 2 * kB * celsius + below);
 }
 
 /// 1/T = a + b ln R + c (ln R)^3; T in K, R in Ohm. By beta, c is 0.

@@ -24,8 +24,8 @@ inline constexpr ObjectAddress kSensorPath{0x2200, 1}, kReference{0x2201, 1}, kN
     kBeta{0x2203, 1}, kPointTemperature1{0x2204, 1}, kPointResistance1{0x2205, 1},
     kPointTemperature2{0x2206, 1}, kPointResistance2{0x2207, 1}, kPointTemperature3{0x2208, 1},
     kPointResistance3{0x2209, 1}, kLowestPlausible{0x220A, 1}, kHighestPlausible{0x220B, 1},
-    kRatio{0x220C, 1}, kSensorType{0x6110, 1}, kInputStatus{0x6150, 1}, kInputI16{0x7130, 1},
-    kInputI32{0x9130, 1};
+    kRatio{0x220C, 1}, kSensorWires{0x220D, 1}, kMains{0x220E, 0}, kSensorType{0x6110, 1},
+    kInputStatus{0x6150, 1}, kInputI16{0x7130, 1}, kInputI32{0x9130, 1};
 // Heaters.
 inline constexpr ObjectAddress kHeaterSensor{0x2210, 1}, kLimit{0x2211, 1}, kHighestSetPoint{0x2212, 1},
     kControlKind{0x2213, 1}, kOutputKind{0x2214, 1}, kMostPower{0x2215, 1}, kNominalPower{0x2216, 1},
@@ -116,6 +116,9 @@ constexpr void temperature_inputs(Rows& t) {
   array_of(t, 0x220A, "Lowest plausible temperature", names, setting(kI16, -100, -500, 6000).in("0.1C"));
   array_of(t, 0x220B, "Highest plausible temperature", names, setting(kI16, 3500, -500, 6000).in("0.1C"));
   array_of(t, 0x220C, "Sensor ratio", names, state(kU32).in("2^-20"));
+  // Of a MAX31865: wires that lead to the element, and the hum that their filters take away, 50 or 60.
+  array_of(t, 0x220D, "Sensor wires", names, setting(kU8, 2, 2, 4));
+  t.var(0x220E, "Mains frequency", kU8, kReadWrite, kParameter, 50).between(50, 60).in("Hz");
   // 0: none. 30, 33: Pt100, Pt1000; thermistors have the manufacturer's numbers.
   array_of(t, 0x6110, "AI sensor type", names, setting(kU16, 0, 0, 10'101));
   array_of(t, 0x6131, "AI physical unit PV", names, entry_of(kU32, kConst, kConstant, 0x002D'0000));

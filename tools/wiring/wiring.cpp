@@ -99,7 +99,7 @@ constexpr auto ebb_pins_with(const std::array<Pin, kOwn>& own) {
   return all;
 }
 constexpr auto kEbbAxisPins = ebb_pins_with<0>(ebb::kAxisPins);
-constexpr auto kEbbHeatPins = ebb_pins_with<3>(ebb::kHeatPins);  // SPI2's
+constexpr auto kEbbHeatPins = ebb_pins_with<6>(ebb::kHeatPins);  // those of both SPIs
 static_assert(stm32::pins_differ(kEbbAxisPins) && stm32::pins_differ(kEbbHeatPins));
 
 constexpr std::array kPages{

@@ -12,22 +12,29 @@ namespace {
 constexpr std::uint32_t kCrystalHz = 8'000'000;
 // 64 MHz on the time base of all boards: 21 cycles are 8 clocks.
 constexpr Cycle kClockCycles = 21, kClockParts = 8;
-constexpr Rcc::Clock kSpi2Clock{0x3C, 14};
+constexpr Rcc::Clock kSpi1Clock{0x40, 12}, kSpi2Clock{0x3C, 14};
 
 }  // namespace
 
 EbbBoard::EbbBoard(const ElfImage& image, const BoardOptions& options, std::uint32_t device_id)
     : Stm32g0b1Chip(image, options, kCrystalHz, device_id),
+      spi1_(cpu_.nvic(), 25, kClockCycles, max31865_, true, kClockParts),
       spi2_(cpu_.nvic(), 26, kClockCycles, accelerometer_, true, kClockParts) {
+  map(0x40013000, 0x400, spi1_, kSpi1Clock);
   map(0x40003800, 0x400, spi2_, kSpi2Clock);
   for (GpioPort& port : ports_) port.on_change = [this](Cycle at) { on_pins(at); };
   for (Timer* timer : {&tim16_, &tim17_}) timer->on_output = [this](Cycle at) { on_pins(at); };
   usart2_.on_output = [this](Cycle at) { look_at_wire(at); };
   driver_.on_step = [this](bool direction, Cycle at) { tmc_.on_step(direction, at); };
-  // A divider to 3.3 V.
+  // A divider to 3.3 V; without a sensor it is there.
   adc_.sample = [this](int channel, Cycle) {
-    return channel == ebb::kThermistor ? heated_.hot_end().voltage() : 0;
+    if (channel != ebb::kThermistor) return 0.0;
+    return heated_.hot_end().part.max31865 ? 1.0 : heated_.hot_end().voltage();
   };
+  constexpr double kNothing = 1e9;
+  max31865_.ohm = [this] { return heated_.hot_end().part.max31865 ? heated_.hot_end().ohm() : kNothing; };
+  max31865_.mode = [this] { return spi1_.mode(); };
+  max31865_.clock_hz = [this] { return spi1_.clock_hz(); };
   heated_.set_contactor(true);  // there is none
   start();
 }
@@ -75,6 +82,7 @@ bool EbbBoard::anything_on() const {
 }
 
 void EbbBoard::advance_devices(Cycle now) {
+  spi1_.advance(now);
   spi2_.advance(now);
   heated_.advance(now);
   if (tmc_.next_event() <= now) tmc_.advance(now);
@@ -98,6 +106,7 @@ void EbbBoard::look_at_wire(Cycle now) {
 }
 
 void EbbBoard::reset_devices(Cycle now) {
+  spi1_.reset();
   spi2_.reset();
   on_pins(now);
 }
@@ -116,9 +125,18 @@ void EbbBoard::on_pins(Cycle now) {
   // A pin that nobody drives leaves the driver disabled: pulled up on the board.
   const GpioPort& port = ports_[static_cast<std::size_t>(ebb::kEnable.port)];
   const bool enabled = port.mode(ebb::kEnable.number) == GpioPort::Mode::kOutput && !high(ebb::kEnable);
-  const GpioPort& select = ports_[static_cast<std::size_t>(ebb::kAccelerometer.port)];
-  accelerometer_.select(
-      select.mode(ebb::kAccelerometer.number) == GpioPort::Mode::kOutput && !high(ebb::kAccelerometer), now);
+  const auto selects = [&](const stm32::OutputPin& pin) {
+    return ports_[static_cast<std::size_t>(pin.port)].mode(pin.number) == GpioPort::Mode::kOutput &&
+           !high(pin);
+  };
+  accelerometer_.select(selects(ebb::kAccelerometer), now);
+  // SPI1 is PA5 to PA7's function 0.
+  const GpioPort& port_a = ports_[0];
+  const auto of_spi1 = [&](int pin) {
+    return port_a.mode(pin) == GpioPort::Mode::kAlternate && port_a.alternate(pin) == 0;
+  };
+  const bool wired = of_spi1(5) && of_spi1(6) && of_spi1(7);
+  max31865_.select(wired && selects(ebb::kResistanceConverter), now);
   // A MOSFET with a pull-down: a pin that nobody drives is off.
   heated_.set_power(high(ebb::kHeater), false, now);
   tmc_.on_enable(enabled);

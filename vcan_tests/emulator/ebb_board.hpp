@@ -10,6 +10,7 @@
 #include "vcan_tests/emulator/peripherals/spi.hpp"
 #include "vcan_tests/emulator/physics/adxl345.hpp"
 #include "vcan_tests/emulator/physics/heated_places.hpp"
+#include "vcan_tests/emulator/physics/max31865.hpp"
 #include "vcan_tests/emulator/physics/pulled_wire.hpp"
 #include "vcan_tests/emulator/physics/tmc2209.hpp"
 #include "vcan_tests/emulator/servo_pulses.hpp"
@@ -37,11 +38,14 @@ class EbbBoard : public Stm32g0b1Chip {
   Tmc2209& tmc() { return tmc_; }
   const g0::Usart& usart() const { return usart2_; }
   void clear_edges() { driver_.clear_edges(); }
-  /// The hot end at its clamps and TH0.
+  /// The hot end at its clamps and TH0, or the MAX31865.
   HeatedPlaces& heated() { return heated_; }
   bool heater_on() const;
   Adxl345Chip& accelerometer() { return accelerometer_; }
   const Spi& spi() const { return spi2_; }
+  /// What is plugged into the hot end's place hangs on it, or on TH0: the other is open.
+  Max31865Chip& max31865() { return max31865_; }
+  const Spi& max31865_spi() const { return spi1_; }
   bool fan_on(int fan) const;
   ServoPulses servo();
   /// A pin that gives power to something is driven, and not to its level without.
@@ -51,7 +55,8 @@ class EbbBoard : public Stm32g0b1Chip {
   void reset_devices(Cycle now) override;
   void advance_devices(Cycle now) override;
   Cycle next_of_devices() const override {
-    return std::min({heated_.next_event(), spi2_.next_event(), tmc_.next_event(), wire_.next_event()});
+    return std::min({heated_.next_event(), spi1_.next_event(), spi2_.next_event(), tmc_.next_event(),
+                     wire_.next_event()});
   }
   void on_pins(Cycle now);
   void look_at_wire(Cycle now);
@@ -61,7 +66,8 @@ class EbbBoard : public Stm32g0b1Chip {
   PulledWire wire_;
   HeatedPlaces heated_;
   Adxl345Chip accelerometer_;
-  Spi spi2_;
+  Max31865Chip max31865_;
+  Spi spi1_, spi2_;
 };
 
 /// With the program of a heat node.

@@ -180,6 +180,13 @@ TEST(MachineFile, ADeviceWhereNoneCanBeIsRefused) {
       {"axis_pairs = 0\nheaters = 2",
        "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"pt100\"\nsensor_max31865 = true",
        "heater.bed.sensor_reference_ohm: missing; expected a number in 10 .. 2e+06"},
+      {"axis_pairs = 0\nheaters = 2",
+       "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"pt100\"\nsensor_max31865 = true\n"
+       "sensor_reference_ohm = 430\nsensor_wires = 5",
+       "heater.bed.sensor_wires: found 5; expected a whole number in 2 .. 4"},
+      {"axis_pairs = 0\nheaters = 2",
+       "where = \"node\"\nnode = 4\nchannel = 1\nsensor = \"pt100\"\nsensor_wires = 3",
+       "heater.bed.sensor_wires"},
       {"axis_pairs = 0\nsensors = 1",
        "where = \"simulated\"\n[sensor.x]\nwhere = \"node\"\nnode = 4\nchannel = 1\nsensor = \"points\"\n"
        "sensor_points_c = [25, 25, 250]\nsensor_points_ohm = [100000, 1770, 230]",
@@ -285,6 +292,15 @@ TEST(MachineFile, AnAxisNeedsANodeThatHasAxes) {
                 .find("joint.C.node: found 3; expected a node that has axes: node.3.axis_pairs is 0"),
             std::string::npos)
       << to_string(machine.error());
+}
+
+TEST(MachineFile, MainsHave50Or60Hz) {
+  EXPECT_TRUE(parse_machine(edited("[thermal]", "[thermal]\nmains_hz = 60").text, "m"));
+  const Edited e = edited("[thermal]", "[thermal]\nmains_hz = 55");
+  const auto machine = parse_machine(e.text, "m");
+  ASSERT_FALSE(machine);
+  EXPECT_EQ(to_string(machine.error()),
+            "m:" + std::to_string(e.line + 1) + ": thermal.mains_hz: found 55; expected 50 or 60\n");
 }
 
 TEST(MachineFile, HeatersOfEarlierFilesAreRefusedWithWhatStandsForThemNow) {

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "node_firmware/board/board_heat.hpp"
 #include "node_firmware/board/node_program.hpp"
 #include "node_firmware/board/tests/fake_drivers.hpp"
+#include "protocol/bytes.hpp"
 #include "protocol/motion/broadcast.hpp"
 
 namespace kinebus {
@@ -98,6 +100,107 @@ struct HeatBesideAxes : testing::Test {
   NodeProgram<fake::Can, fake::Switches, fake::Counter, 1, BoardHeat<FakeHeat>> program{
       NodeOptions{.node_id = kAxes, .consecutive_ids = 2}, {}, can, switches, plan};
 };
+
+/// Sensor 1 as a Pt100 of a MAX31865: 0, or the abort code.
+template <typename Driver>
+std::uint32_t describe_pt100(BoardHeat<Driver>& board, std::uint8_t id) {
+  const auto write = [&](std::uint16_t index, std::uint8_t sub, int size, std::uint32_t value) {
+    CanFrame request = CanFrame::make(0x600u + id, {0, 0, 0, 0, 0, 0, 0, 0});
+    request.data[0] = static_cast<std::uint8_t>(0x23 | (4 - size) << 2);
+    put_u16_le(std::span(request.data).subspan(1), index);
+    request.data[3] = sub;
+    put_u32_le(std::span(request.data).subspan(4), value);
+    board.renew_hearing(1s);
+    board.on_frame(1s, request);
+    board.serve(1s);
+    while (const auto frame = board.next_frame())
+      if (frame->id == 0x580u + id)
+        return frame->data[0] == 0x60 ? 0u : get_u32_le(std::span(frame->data).subspan(4));
+    return 1u;
+  };
+  EXPECT_EQ(write(0x2201, 1, 4, 430'000), 0u);
+  EXPECT_EQ(write(0x220D, 1, 1, 3), 0u);
+  EXPECT_EQ(write(0x2200, 1, 1, 1), 0u);
+  return write(0x6110, 1, 2, 30);
+}
+
+struct FakeMax31865 {
+  std::optional<std::uint32_t> take(LocalTime, heat::RtdWiring wiring) {
+    last = wiring;
+    ++asked;
+    return ratio;
+  }
+  heat::RtdWiring last;
+  int asked = 0;
+  std::optional<std::uint32_t> ratio = 428'865;  // a Pt100 at 200 C against 430 Ohm
+};
+struct HeatWithConverter : FakeHeat {
+  static constexpr std::uint8_t kMax31865Sensors = 1;
+  FakeMax31865* max31865(int) { return fitted ? &chip : nullptr; }
+  FakeMax31865 chip;
+  bool fitted = true;
+};
+
+TEST(BoardHeat, ASensorOfAMax31865IsMeasuredByNothingElse) {
+  // 0: valid, 1: not.
+  const auto status = [](bool fitted, bool silent) {
+    BoardHeat<HeatWithConverter> board;
+    auto& driver = board.driver();
+    // What its divider has would be a Pt100 of some 200 C, too.
+    driver.ratio[0] = *driver.chip.ratio;
+    driver.fitted = fitted;
+    if (silent) driver.chip.ratio.reset();
+    board.begin({.node_id = 6, .serial = 7}, 1s, {});
+    EXPECT_EQ(describe_pt100(board, 6), 0u);
+    for (LocalTime now = 1s; now < 1300ms; now += 1ms) board.serve(now);
+    EXPECT_EQ(driver.chip.asked > 20, fitted);
+    if (fitted) {
+      EXPECT_EQ(driver.chip.last, (heat::RtdWiring{.three_wires = true}));
+    }
+    board.on_frame(1300ms, CanFrame::make(0x606, {0x40, 0x50, 0x61, 1, 0, 0, 0, 0}));
+    while (const auto frame = board.next_frame())
+      if (frame->id == 0x586) return frame->data[4] & 1;
+    return -1;
+  };
+  EXPECT_EQ(status(true, false), 0);
+  EXPECT_EQ(status(true, true), 1);
+  EXPECT_EQ(status(false, false), 1) << "the board is not its own: nothing is asked";
+}
+
+TEST(BoardHeat, ABoardWithoutAMax31865RefusesASensorOfOne) {
+  BoardHeat<FakeHeat> board;
+  board.begin({.node_id = 6, .serial = 7}, 1s, {});
+  EXPECT_NE(describe_pt100(board, 6), 0u);
+}
+
+// What another board has stored, or this one's program of before: nothing heats by it.
+TEST(BoardHeat, AStoredSensorOfAMax31865MeasuresNothingWithoutOne) {
+  BoardHeat<HeatWithConverter> other;
+  other.begin({.node_id = 6, .serial = 7}, 1s, {});
+  EXPECT_EQ(describe_pt100(other, 6), 0u);
+  other.on_frame(1s, CanFrame::make(0x606, {0x23, 0x10, 0x10, 1, 's', 'a', 'v', 'e'}));
+  std::vector<std::uint8_t> image;
+  struct {
+    void allow_flash() {}
+    void back_to_normal() {}
+  } dog;
+  other.store(dog, [&](std::span<const std::uint8_t> bytes) {
+    image.assign(bytes.begin(), bytes.end());
+    return true;
+  });
+  ASSERT_FALSE(image.empty());
+  BoardHeat<FakeHeat> board;
+  board.begin({.node_id = 6, .serial = 7}, 1s, image);
+  // What its divider has would be a Pt100 of some 200 C.
+  board.driver().ratio[0] = 428'865;
+  for (LocalTime now = 1s; now < 2s; now += 1ms) board.serve(now);
+  board.renew_hearing(2s);
+  board.on_frame(2s, CanFrame::make(0x606, {0x40, 0x50, 0x61, 1, 0, 0, 0, 0}));
+  int status = -1;
+  while (const auto frame = board.next_frame())
+    if (frame->id == 0x586) status = frame->data[4] & 1;
+  EXPECT_EQ(status, 1) << "not valid";
+}
 
 TEST_F(HeatBesideAxes, AnswersUnderItsOwnIdAndHeats) {
   for (const std::uint32_t id : {0x700 + kAxes, 0x700 + kHeat})

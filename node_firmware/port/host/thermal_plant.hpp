@@ -98,6 +98,13 @@ class ThermalPlant {
   /// What a converter outside is given, as a share of its reference: with noise, not yet in steps.
   double voltage() { return divider() + normal_(random_) * kNoiseSteps / 4095; }
 
+  /// What the sensor and its leads have, with noise.
+  double ohm() {
+    if (sensor_open) return 1e9;
+    if (sensor_short) return 0.1;
+    return part.ohm(sensor_ + p.noise_k * normal_(random_)) + series_ohm;
+  }
+
   double block() const { return block_; }
   double sensor() const { return sensor_; }
   double heater() const { return heater_; }
@@ -109,13 +116,7 @@ class ThermalPlant {
  private:
   static constexpr double kNoiseSteps = 0.6;
 
-  double divider() {
-    const double noisy = sensor_ + p.noise_k * normal_(random_);
-    double r = part.ohm(noisy) + series_ohm;
-    if (sensor_open) r = 1e9;
-    if (sensor_short) r = 0.1;
-    return part.share(r);
-  }
+  double divider() { return part.share(ohm()); }
 
   double heater_ = 0, block_ = 0, sensor_ = 0, hottest_ = 0;
   std::deque<double> past_;

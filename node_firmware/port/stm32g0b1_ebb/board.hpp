@@ -63,6 +63,9 @@ inline constexpr std::array kHeatPins = {
   Pin{B, 10, kAlternate, kNone,  5, false, "ADXL345 SCK (SPI2)"},
   Pin{B,  2, kAlternate, kUp,    1, false, "ADXL345 MISO (SPI2)"},
   Pin{B, 11, kAlternate, kNone,  0, false, "ADXL345 MOSI (SPI2)"},
+  Pin{A,  5, kAlternate, kNone,  0, false, "MAX31865 SCK (SPI1)"},
+  Pin{A,  6, kAlternate, kUp,    0, false, "MAX31865 MISO (SPI1)"},
+  Pin{A,  7, kAlternate, kNone,  0, false, "MAX31865 MOSI (SPI1)"},
   Pin{A, 15, kInput,     kUp,    0, false, "driver's UART, not used: at rest"},
 };
 // clang-format on
@@ -76,6 +79,8 @@ inline constexpr std::array<OutputPin, 2> kFans{{{A, 0}, {A, 1}}};
 
 /// The ADXL345's select line, low.
 inline constexpr OutputPin kAccelerometer{B, 12};
+/// The MAX31865's, low.
+inline constexpr OutputPin kResistanceConverter{A, 4};
 /// ADC input of the thermistor.
 inline constexpr unsigned kThermistor = 3;
 /// Which of kSwitchPins: the line of a probe with a pin, and the heat node's filament sensors.

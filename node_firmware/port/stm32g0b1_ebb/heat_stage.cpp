@@ -54,7 +54,8 @@ bool start_converter() {
 
 bool HeatPort::start() {
   start_servo();
-  SpiPort::start();
+  SpiPort<Spi2>::start();
+  SpiPort<Spi1>::start();
   return started_ = start_converter();
 }
 

@@ -40,7 +40,7 @@ struct Rcc {
   static constexpr std::uint32_t kDma1 = bit(0);  // AHBENR
   static constexpr std::uint32_t kTim2 = bit(0), kCan = bit(12), kSpi2 = bit(14), kUsart2 = bit(17),
                                  kDebug = bit(27);  // APBENR1
-  static constexpr std::uint32_t kTim1 = bit(11), kTim16 = bit(17), kTim17 = bit(18),
+  static constexpr std::uint32_t kTim1 = bit(11), kSpi1 = bit(12), kTim16 = bit(17), kTim17 = bit(18),
                                  kAdc = bit(20);  // APBENR2
 };
 static_assert(offsetof(Rcc, IOPENR) == 0x34 && offsetof(Rcc, APBENR1) == 0x3C &&
@@ -108,6 +108,9 @@ struct Spi {
   static constexpr std::uint32_t kBytes = 7u << 8, kByteReceived = bit(12);  // CR2: told for each byte
   static constexpr std::uint32_t kReceived = bit(0);                         // SR
 };
+inline Spi& spi1() {
+  return peripheral<Spi>(0x4001'3000);
+}
 inline Spi& spi2() {
   return peripheral<Spi>(0x4000'3800);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// SPI2, to the accelerometer on the board: bytes in mode 3 at 4 MHz, with bounded waits.
+// SPI to a chip on the board: bytes in mode 3 at 4 MHz, with bounded waits.
 
 #include <cstdint>
 #include <optional>
@@ -10,19 +10,33 @@
 
 namespace kinebus::g0b1 {
 
+/// The accelerometer's.
+struct Spi2 {
+  static Spi& spi() { return spi2(); }
+  static void start_clock() { enable_clock(rcc().APBENR1, Rcc::kSpi2); }
+  static constexpr stm32::OutputPin kSelect = ebb::kAccelerometer;
+};
+/// The resistance thermometer's.
+struct Spi1 {
+  static Spi& spi() { return spi1(); }
+  static void start_clock() { enable_clock(rcc().APBENR2, Rcc::kSpi1); }
+  static constexpr stm32::OutputPin kSelect = ebb::kResistanceConverter;
+};
+
+template <typename Wires>
 class SpiPort {
  public:
   static void start() {
-    enable_clock(rcc().APBENR1, Rcc::kSpi2);
-    Spi& s = spi2();
+    Wires::start_clock();
+    Spi& s = Wires::spi();
     s.CR2 = Spi::kBytes | Spi::kByteReceived;
     s.CR1 = Spi::kMode3 | Spi::kMaster | Spi::kDividedBy16 | Spi::kSelected;
     s.CR1 = s.CR1 | Spi::kEnable;
   }
-  static void select(bool on) { write(ebb::kAccelerometer, !on); }
+  static void select(bool on) { write(Wires::kSelect, !on); }
   /// nullopt: it stands.
   static std::optional<std::uint8_t> exchange(std::uint8_t byte) {
-    Spi& s = spi2();
+    Spi& s = Wires::spi();
     // A wider store would be two bytes.
     *reinterpret_cast<volatile std::uint8_t*>(&s.DR) = byte;
     if (!wait_until([&] { return (s.SR & Spi::kReceived) != 0; }, 1000)) return std::nullopt;

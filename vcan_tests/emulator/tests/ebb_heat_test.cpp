@@ -122,6 +122,154 @@ TEST(EbbHeat, NobodyIsLeftHeatingAlone) {
   EXPECT_EQ(codes[0], emcy::kHeartbeat);
 }
 
+/// A resistance thermometer on the board's MAX31865 instead of a thermistor on TH0.
+struct WithResistanceThermometer : HeatedEbb {
+  explicit WithResistanceThermometer(double hot_end_c, bool pt1000 = false, std::uint8_t wires = 2)
+      : HeatedEbb(hot_end_c) {
+    const double ohm_0 = pt1000 ? 1000 : 100, reference = pt1000 ? 4300 : 430;
+    board.heated().plant().plug(0, {.ohm_0 = ohm_0, .reference_ohm = reference, .max31865 = true});
+    board.max31865().reference_ohm = reference;
+    board.max31865().wires = wires;
+    board.max31865().lead_ohm = wires == 2 ? 0 : 1.5;
+    master.describe(0);
+    master.write(0x2200, 1, 1, 1);
+    master.write(0x2201, 1, 4, std::lround(1000 * reference));
+    master.write(0x220D, 1, 1, wires);
+    master.write(0x220E, 0, 1, 50);
+    master.write(0x220A, 1, 2, -50);
+    master.write(0x6110, 1, 2, pt1000 ? 33 : 30);
+    master.start();
+  }
+  /// With all its power on.
+  void heat_up() {
+    master.write(0x7402, 1, 2, 2100);
+    bench.run(1s);
+    ASSERT_TRUE(board.heater_on());
+    ASSERT_TRUE(master.emergencies().empty());
+  }
+  /// Off so soon after `what`, and for good, with that word.
+  void expect_off(double most_s, std::uint16_t code, const std::function<void()>& what) {
+    heat_up();
+    double off_s = power_after_s(what);
+    if (most_s > 0.9) off_s += power_after_s([] {});
+    fmt::print("power off {:.0f} ms later\n", 1e3 * off_s);
+    EXPECT_LE(off_s, most_s);
+    bench.run(500ms);
+    const auto codes = master.emergencies();
+    ASSERT_EQ(codes.size(), 1u);
+    EXPECT_EQ(codes[0], code);
+    EXPECT_LE(power_after_s([] {}), 0) << "it stays off";
+    EXPECT_EQ(board.max31865().mistakes(), 0u);
+    expect_good_chip();
+  }
+};
+
+TEST(EbbResistance, HeatsABlockTo210ByAPt100AndABrokenWireTakesThePower) {
+  WithResistanceThermometer ebb(170);
+  EXPECT_NEAR(ebb.master.measured_c(), 170, 0.5);
+  EXPECT_EQ(ebb.board.max31865_spi().clock_hz(), 4e6);
+  EXPECT_EQ(ebb.board.max31865_spi().mode(), 3);
+  ebb.board.cpu().clear_costs();
+  ebb.master.write(0x7402, 1, 2, 2100);
+  double c = 0;
+  for (int s = 0; s < 110 && c < 209.5; s += 2) c = ebb.master.heat_for(2s);
+  EXPECT_NEAR(c, 210, 1);
+  ebb.master.heat_for(8s);
+  EXPECT_NEAR(ebb.master.measured_c(), 210, 1);
+  EXPECT_NEAR(ebb.board.heated().hot_end().block(), 210, 2);
+  EXPECT_TRUE(ebb.master.emergencies().empty());
+  const double longest_pass_ms = seconds_of(ebb.board.cpu().longest_pass()) * 1e3;
+  fmt::print("EBB with a Pt100: main loop {:.1f} ms at most\n", longest_pass_ms);
+  EXPECT_LT(longest_pass_ms, 6);
+  EXPECT_GT(ebb.board.max31865().conversions(), 400u);
+  ebb.master.write(0x7402, 1, 2, 2300);
+  ebb.bench.run(500ms);
+  ASSERT_TRUE(ebb.board.heater_on());
+  const double off_s =
+      ebb.power_after_s([&] { EXPECT_EQ(ebb.board.heated().plant().command("sensor 1 open"), ""); });
+  fmt::print("power off {:.0f} ms after the wire broke\n", 1e3 * off_s);
+  EXPECT_LE(off_s, 0.1);
+  const auto codes = ebb.master.emergencies();
+  ASSERT_EQ(codes.size(), 1u);
+  EXPECT_EQ(codes[0], emcy::kSensorOpen);
+  EXPECT_EQ(ebb.master.raw(0x6150, 1) & 0xFF, 3u) << "not valid, above what can be measured";
+  ebb.master.heat_for(3s);
+  EXPECT_FALSE(ebb.board.heater_on()) << "it stays";
+  EXPECT_LT(ebb.board.heated().hot_end().hottest(), 216);
+  EXPECT_EQ(ebb.board.max31865().mistakes(), 0u);
+  ebb.expect_good_chip();
+}
+
+TEST(EbbResistance, MeasuresBothElementsByTwoThreeAndFourWires) {
+  for (const bool pt1000 : {false, true})
+    for (const std::uint8_t wires : std::array<std::uint8_t, 3>{2, 3, 4}) {
+      WithResistanceThermometer ebb(200, pt1000, wires);
+      EXPECT_NEAR(ebb.master.measured_c(), 200, 0.7) << pt1000 << ' ' << int{wires};
+      EXPECT_EQ(ebb.board.max31865().mistakes(), 0u);
+    }
+}
+
+// It is made in the main loop: a long one is a reset by the watchdog.
+TEST(EbbResistance, ItsTableTakesNoLongerThanAThermistors) {
+  struct Case {
+    std::uint8_t path;
+    std::uint16_t element;
+  };
+  for (const Case each : {Case{0, 10'004}, Case{0, 33}, Case{1, 30}, Case{1, 33}}) {
+    HeatedEbb ebb;
+    ebb.master.enter_pre_operational();
+    ebb.master.write(0x2200, 1, 1, each.path);
+    if (each.path != 0) ebb.master.write(0x2201, 1, 4, each.element == 30 ? 430'000 : 4'300'000);
+    ebb.board.cpu().clear_costs();
+    ebb.master.write(0x6110, 1, 2, each.element);
+    ebb.bench.run(100ms);
+    const double longest_pass_ms = seconds_of(ebb.board.cpu().longest_pass()) * 1e3;
+    fmt::print("table of sensor {}, path {}: {:.1f} ms\n", each.element, each.path, longest_pass_ms);
+    EXPECT_LT(longest_pass_ms, 26);
+    ebb.expect_good_chip();
+  }
+}
+
+TEST(EbbResistance, WhateverBreaksTakesThePowerAndSaysWhat) {
+  using Wires = Max31865Chip::Wires;
+  struct Case {
+    const char* what;
+    double most_s;
+    std::uint16_t code;
+    std::function<void(Max31865Chip&)> breaks;
+  };
+  const std::array cases{
+      Case{"short", 0.1, emcy::kSensorShort, [](Max31865Chip& c) { c.state = Wires::kElementShort; }},
+      // Found in a cycle of its own.
+      Case{"wire", 1.2, emcy::kSensorOpen, [](Max31865Chip& c) { c.state = Wires::kForceOpen; }},
+      Case{"ground", 1.2, emcy::kSensorShort, [](Max31865Chip& c) { c.state = Wires::kGrounded; }},
+      Case{"voltage", 0.1, emcy::kSensorSilent, [](Max31865Chip& c) { c.voltage = true; }},
+      Case{"gone", 0.1, emcy::kSensorSilent, [](Max31865Chip& c) { c.absent = true; }},
+      Case{"gone, line low", 0.1, emcy::kSensorSilent, [](Max31865Chip& c) { c.absent = c.line_low = true; }},
+      Case{"converter stands", 0.2, emcy::kSensorSilent, [](Max31865Chip& c) { c.stands = true; }},
+  };
+  for (const Case& each : cases) {
+    SCOPED_TRACE(each.what);
+    WithResistanceThermometer ebb(170);
+    ebb.expect_off(each.most_s, each.code, [&] { each.breaks(ebb.board.max31865()); });
+  }
+}
+
+TEST(EbbResistance, WithoutItsChipNothingHeatsAndNoOtherSensorHasOne) {
+  WithResistanceThermometer ebb(170);
+  ebb.board.max31865().absent = true;
+  ebb.master.enter_pre_operational();
+  ebb.bench.run(1s);
+  EXPECT_NE(ebb.master.raw(0x6150, 1) & 1, 0u);
+  static_cast<void>(ebb.master.try_write(0x7402, 1, 2, 2100));
+  EXPECT_LE(ebb.power_after_s([] {}), 0);
+  ebb.master.write(0x2200, 2, 1, 1);
+  ebb.master.write(0x2201, 2, 4, 430'000);
+  EXPECT_NE(ebb.master.try_write(0x6110, 2, 2, 30), 0u) << "there is none for sensor 2";
+  ebb.master.write(0x2200, 2, 1, 0);
+  EXPECT_NE(ebb.master.try_write(0x220E, 0, 1, 55), 0u) << "no such mains";
+}
+
 // The pins of another chip may be wired to anything, a heater among them.
 TEST(EbbHeat, OnAnotherChipItDrivesNothingAndMeasuresNothing) {
   HeatedEbb ebb(22, [](const ElfImage& image, const BoardOptions& options) -> std::unique_ptr<Chip> {
