@@ -57,14 +57,19 @@ bool Server::make_room_for_socket(LocalTime now) {
   return true;
 }
 
-const std::string& Server::status_json(LocalTime now, Caller& by) {
-  if (!status_json_.empty() && now < status_until_) return status_json_;
-  joblink::ClientMessage message;
-  message.mutable_get_status();
+const std::string& Server::status_json() {
+  const joblink::Status& status = link_.status();
+  if (status_made_ == link_.statuses_made()) return status_json_;
+  status_made_ = link_.statuses_made();
   status_json_.clear();
-  append_json(status_json_, by.ask_now(message).status());
-  status_until_ = now + kStatusShared;
+  append_json(status_json_, status);
   return status_json_;
+}
+
+const std::string& Server::recent_status_json(LocalTime now) {
+  if (!status_json_.empty() && now < status_until_) return status_json_;
+  status_until_ = now + kStatusShared;
+  return status_json();
 }
 
 std::unique_ptr<ByteSession> Server::open(LocalTime now, std::string transport, std::string peer,
