@@ -41,16 +41,19 @@ StreamHub::~StreamHub() {
   ::close(epoll_);
 }
 
-bool StreamHub::add(std::unique_ptr<ByteStream> stream, std::unique_ptr<ByteSession> session) {
-  if (streams() >= options_.max_streams) return false;
+bool StreamHub::add(std::unique_ptr<ByteStream> stream, std::unique_ptr<ByteSession> session, Side side) {
+  if (!lanes_[kSide]) side = Side::kCommon;
+  StreamHub& home = home_of(side);
+  if (streams_of(side) >= home.options_.max_streams) return false;
   auto pair = std::make_unique<Pair>();
   pair->stream = std::move(stream);
   pair->session = std::move(session);
+  pair->side = side;
   pair->interest = pair->stream->interest(false);
   Pair& kept = *pair;
-  pairs_.push_back(std::move(pair));
-  set_interest(epoll_, EPOLL_CTL_ADD, kept.stream->fd(), kept.interest, &kept);
-  send(kept);
+  home.pairs_.push_back(std::move(pair));
+  set_interest(home.epoll_, EPOLL_CTL_ADD, kept.stream->fd(), kept.interest, &kept);
+  home.send(kept);
   return true;
 }
 

@@ -2,6 +2,7 @@
 
 #include <sys/epoll.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -18,7 +19,27 @@ constexpr LocalTime kBetweenLooks = std::chrono::microseconds{200};
 void StreamHub::add_lane(ByteSession::Rank rank, const Options& options) {
   auto& lane = lanes_[static_cast<std::size_t>(rank)];
   lane = std::make_unique<StreamHub>(loop_, options);
+  lane->whole_ = this;
   comes_after(*lane);
+}
+
+void StreamHub::add_side(const Options& options) {
+  auto& side = lanes_[kSide];
+  side = std::make_unique<StreamHub>(loop_, options);
+  side->whole_ = this;
+  side->before_ = before_;
+  before_.push_back(side.get());
+}
+
+void StreamHub::comes_after(StreamHub& other) {
+  StreamHub* const side = lanes_[kSide].get();
+  if (side != nullptr) side->before_.push_back(&other);
+  before_.insert(before_.end() - (side != nullptr ? 1 : 0), &other);
+}
+
+StreamHub& StreamHub::home_of(Side side) {
+  const auto& lane = lanes_[kSide];
+  return side == Side::kApart && lane ? *lane : *this;
 }
 
 std::size_t StreamHub::streams() const {
@@ -28,9 +49,22 @@ std::size_t StreamHub::streams() const {
   return count;
 }
 
+std::size_t StreamHub::streams_of(Side side) const {
+  const auto is = [side](const auto& pair) { return pair->side == side; };
+  auto count = std::ranges::count_if(pairs_, is);
+  for (const auto& lane : lanes_)
+    if (lane) count += std::ranges::count_if(lane->pairs_, is);
+  return static_cast<std::size_t>(count);
+}
+
+std::size_t StreamHub::streams_first() const {
+  const auto& side = lanes_[kSide];
+  return streams() - pairs_.size() - (side ? side->pairs_.size() : 0);
+}
+
 /// nullptr: it has none.
 StreamHub* StreamHub::lane_of(const Pair& pair) const {
-  return lanes_[pair.lane()].get();
+  return (whole_ != nullptr ? *whole_ : *this).lanes_[pair.lane()].get();
 }
 
 void StreamHub::hand_over(std::size_t index, StreamHub& to) {
@@ -50,8 +84,8 @@ void StreamHub::sort_into_lanes() {
       Pair& pair = *from.pairs_[i];
       pair.rank = pair.session->rank();
       StreamHub* const lane = lane_of(pair);
-      StreamHub& to =
-          lane != nullptr && pair.frugality[pair.lane()].holds(lane->options_.frugal, now) ? *lane : *this;
+      const bool frugal = lane != nullptr && pair.frugality[pair.lane()].holds(lane->options_.frugal, now);
+      StreamHub& to = frugal ? *lane : home_of(pair.side);
       if (pair.closed || &to == &from)
         ++i;
       else
@@ -78,16 +112,20 @@ bool StreamHub::others_had_something() {
   const LocalTime now = monotonic_now();
   if (before_.empty() || now < looks_at_) return false;
   looks_at_ = now + kBetweenLooks;
+  // One of them may have looked at another.
+  const auto used_by_all = [this] {
+    LocalTime sum{0};
+    for (const StreamHub* const other : before_) sum += other->used_;
+    return sum;
+  };
+  const LocalTime before = used_by_all();
   bool had = false;
-  for (StreamHub* const other : before_) {
-    const LocalTime used = other->used_;
-    if (!other->looked_at()) continue;
-    had = true;
-    if (!works_since_) continue;
-    *works_since_ += other->used_ - used;
-    counted_ += other->used_ - used;
-  }
-  return had;
+  for (StreamHub* const other : before_) had = other->looked_at() || had;
+  if (!had || !works_since_) return had;
+  const LocalTime used = used_by_all() - before;
+  *works_since_ += used;
+  counted_ += used;
+  return true;
 }
 
 }  // namespace kinebus

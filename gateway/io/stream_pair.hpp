@@ -28,6 +28,7 @@ inline void set_interest(int epoll, int how, int fd, std::uint32_t events, void*
 struct StreamHub::Pair {
   std::unique_ptr<ByteStream> stream;
   std::unique_ptr<ByteSession> session;
+  Side side = Side::kCommon;
   std::uint32_t interest = 0;
   bool full = false;  ///< the stream took less than there was: the kernel tells when it takes more
   bool closed = false;

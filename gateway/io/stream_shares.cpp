@@ -30,9 +30,10 @@ void StreamHub::keep_clear_of(const std::function<LocalTime()>& due) {
     if (lane) lane->keep_clear_of(due);
 }
 
-WorkGate& StreamHub::gate(int fd) {
-  doors_.push_back(fd);
-  return *this;
+WorkGate& StreamHub::gate(int fd, Side side) {
+  StreamHub& home = home_of(side);
+  home.doors_.push_back(fd);
+  return home;
 }
 
 void StreamHub::begin_work() {
@@ -52,7 +53,16 @@ void StreamHub::note(Pair& pair, LocalTime begin) {
   if (end - begin < kHardlyAny) return;
   const LocalTime before = std::exchange(counted_, thread_time());
   const StreamHub* const lane = lane_of(pair);
-  pair.frugality[pair.lane()].note((lane != nullptr ? *lane : *this).options_.frugal, end, counted_ - before);
+  if (lane == nullptr) return;
+  Frugality::Options frugal = lane->options_.frugal;
+  // Those that are not in it, too: they would all come back together.
+  const StreamHub& whole = whole_ != nullptr ? *whole_ : *this;
+  const auto is = [&](const auto& other) { return other->rank == pair.rank; };
+  auto all = std::ranges::count_if(whole.pairs_, is);
+  for (const auto& one : whole.lanes_)
+    if (one) all += std::ranges::count_if(one->pairs_, is);
+  frugal.share = std::min(frugal.share, lane->options_.frugal_together / static_cast<double>(all));
+  pair.frugality[pair.lane()].note(frugal, end, counted_ - before);
 }
 
 /// One at least in a turn, whatever time is left: streams that always have something would keep it out.
