@@ -47,7 +47,8 @@ constexpr StreamHub::Options kNear{.share = 0.15,
 constexpr StreamHub::Options kFar{.share = 0.5, .burst = std::chrono::milliseconds{100}};
 /// Of the network's part: who has control may also ask for its 20 statuses a second. Of all others who may
 /// stop each has a little: a stop, a hold, a word now and then; who uploads, lists jobs, floods, or comes and
-/// goes is served with everybody else.
+/// goes is served with everybody else. Of a crowd of the 50 that there is room for at the HTTP port each has
+/// more than 0.5 % of the loop: it must not pass for frugal.
 constexpr StreamHub::Options kControl{
     .share = 0.1,
     .burst = std::chrono::milliseconds{20},
@@ -56,10 +57,15 @@ constexpr StreamHub::Options kControl{
 constexpr StreamHub::Options kMayStop{.share = 0.1,
                                       .burst = std::chrono::milliseconds{10},
                                       .at_once = true,
-                                      .frugal = {.share = 0.02,
-                                                 .burst = std::chrono::milliseconds{10},
+                                      .frugal = {.share = 0.005,
+                                                 .burst = std::chrono::milliseconds{5},
                                                  .pause = std::chrono::seconds{5},
-                                                 .trial = std::chrono::seconds{5}}};
+                                                 .trial = std::chrono::seconds{5}},
+                                      .frugal_together = 0.1};
+/// Who comes by the job link does not wait with the crowd at the HTTP port: the first second of a client that
+/// only says stop is spent with greetings.
+constexpr StreamHub::Options kLink{
+    .max_streams = 64, .share = 0.3, .burst = std::chrono::milliseconds{50}, .at_once = true};
 
 template <typename T>
 T must(Result<T, std::string> result, const std::string& what = {}) {
@@ -228,6 +234,11 @@ void Service::take_up_what_was_noted() {
 }
 
 void Service::listen() {
+  hub_.comes_after(near_);
+  hub_.add_lane(ByteSession::Rank::kInControl, kControl);
+  hub_.add_lane(ByteSession::Rank::kMayStop, kMayStop);
+  hub_.add_side(kLink);
+  for (StreamHub* const hub : {&near_, &hub_}) hub->keep_clear_of([this] { return gateway_.sync_due(); });
   must_be_empty(host_.listen_local(socket_, arguments_.group), "local socket");
   const std::string folder = arguments_.credentials.empty() ? jobs_folder_ + "/.tls" : arguments_.credentials;
   if (!arguments_.http.empty()) listen_http(folder);
@@ -279,10 +290,6 @@ void Service::listen_http(const std::string& credentials) {
 
 void Service::run(const volatile std::sig_atomic_t* quit, volatile std::sig_atomic_t* reread) {
   RecordedBus recorded(std::move(bus_), recorder_);
-  hub_.comes_after(near_);
-  hub_.add_lane(ByteSession::Rank::kInControl, kControl);
-  hub_.add_lane(ByteSession::Rank::kMayStop, kMayStop);
-  for (StreamHub* const hub : {&near_, &hub_}) hub->keep_clear_of([this] { return gateway_.sync_due(); });
   worker_.pass(hub_.gate(worker_.fd()));
   const ServiceManager manager;
   manager.tell("READY=1");

@@ -69,10 +69,11 @@ JobLinkHost::JobLinkHost(EventLoop& loop, StreamHub& near, StreamHub& far, JobLi
              }),
       tcp_(loop, [this](int fd, std::string who) {
         std::string peer = peer_of(fd);
-        far_.add(tls_->open(fd), server_.open(loop_.now(), {.transport = std::move(who),
-                                                            .token = token_,
-                                                            .peer = std::move(peer),
-                                                            .remote = true}));
+        far_.add(tls_->open(fd),
+                 server_.open(
+                     loop_.now(),
+                     {.transport = std::move(who), .token = token_, .peer = std::move(peer), .remote = true}),
+                 StreamHub::Side::kApart);
       }) {}
 
 std::string JobLinkHost::listen_local(const std::string& path, const std::string& group) {
@@ -87,7 +88,7 @@ std::string JobLinkHost::listen_tcp(const std::string& address, const std::files
   if (!token) return token.error();
   token_ = *token;
   std::string wrong = tcp_.listen_tcp(address);
-  if (wrong.empty()) tcp_.pass(far_.gate(tcp_.fd()));
+  if (wrong.empty()) tcp_.pass(far_.gate(tcp_.fd(), StreamHub::Side::kApart));
   return wrong;
 }
 

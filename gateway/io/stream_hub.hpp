@@ -1,7 +1,7 @@
 #pragma once
 // Joins streams with the sessions that speak on them, within the daemon's loop: moves bytes both ways in
 // bounded portions, so that no client keeps the loop from the bus. Who may stop the machine has a lane of its
-// own, which the others do not fill.
+// own, which the others do not fill; who comes by another door than the crowd does not wait with it.
 
 #include <algorithm>
 #include <array>
@@ -46,7 +46,12 @@ class StreamHub : public DaemonPart, private WorkGate {
     bool at_once = false;
     /// Of a lane: of each of its streams.
     Frugality::Options frugal{};
+    /// And of all of them together, in equal parts: many who take little each would fill the lane.
+    double frugal_together = 1;
   };
+
+  /// Streams that are added apart have a lane of their own, and places, while no better one has them.
+  enum class Side : std::uint8_t { kCommon, kApart };
 
   explicit StreamHub(EventLoop& loop);
   StreamHub(EventLoop& loop, Options options);
@@ -62,15 +67,18 @@ class StreamHub : public DaemonPart, private WorkGate {
   /// Frugal streams whose session is of this rank are served by a lane: a hub with a share of its own, which
   /// counts as this one's, too. It does not rest when this one does.
   void add_lane(ByteSession::Rank rank, const Options& options);
+  /// A lane for what is added apart, of whatever rank; the other lanes come before it.
+  void add_side(const Options& options);
   /// Before each piece of this one's work the other is looked at; where it had something to do, that goes out
   /// on the bus first. Lanes come before their hub as it is.
-  void comes_after(StreamHub& other) { before_.push_back(&other); }
+  void comes_after(StreamHub& other);
 
   /// False: too many streams, both are destroyed.
-  bool add(std::unique_ptr<ByteStream> stream, std::unique_ptr<ByteSession> session);
+  bool add(std::unique_ptr<ByteStream> stream, std::unique_ptr<ByteSession> session,
+           Side side = Side::kCommon);
 
   /// For work that comes by this fd of the loop: it is not watched while streams rest.
-  WorkGate& gate(int fd);
+  WorkGate& gate(int fd, Side side = Side::kCommon);
 
   /// Lets every session see the time, sends what waits, and ends what is to end. Called once a turn of the
   /// loop.
@@ -79,18 +87,20 @@ class StreamHub : public DaemonPart, private WorkGate {
   void on_stall(LocalTime now, LocalTime length) override;
   LocalTime next_deadline() const override;
   std::size_t streams() const;
-  /// In the lanes.
-  std::size_t streams_first() const { return streams() - pairs_.size(); }
+  /// In the lanes of their ranks.
+  std::size_t streams_first() const;
 
  private:
   struct Pair;
-  static constexpr std::size_t kRanks = 3;
+  static constexpr std::size_t kRanks = 3, kSide = kRanks;
   void on_some_ready();
   bool looked_at();
   bool others_had_something();
   void sort_into_lanes();
   void hand_over(std::size_t index, StreamHub& to);
   StreamHub* lane_of(const Pair& pair) const;
+  StreamHub& home_of(Side side);
+  std::size_t streams_of(Side side) const;
   bool has_lanes() const {
     return std::ranges::any_of(lanes_, [](const auto& lane) { return lane != nullptr; });
   }
@@ -116,7 +126,8 @@ class StreamHub : public DaemonPart, private WorkGate {
   int glance_;  ///< of that one: whether it has any, without changing whose turn is next
   std::vector<std::unique_ptr<Pair>> pairs_;
   std::vector<int> doors_;
-  std::array<std::unique_ptr<StreamHub>, kRanks> lanes_;  ///< by rank
+  std::array<std::unique_ptr<StreamHub>, kRanks + 1> lanes_;  ///< by rank, and the side
+  StreamHub* whole_ = nullptr;                                ///< whose lane this is
   std::vector<StreamHub*> before_;
   LocalTime looks_at_{0};
   std::size_t first_ = 0;                    ///< who is served first in the next turn

@@ -183,6 +183,7 @@ void JobLinkServer::on_event(LocalTime now, const MachineEvent& event) {
 const joblink::Status& JobLinkServer::status() {
   if (status_) return *status_;
   gateway_.watch_currents();
+  ++statuses_made_;
   status_bytes_.clear();
   status_ = to_message(gateway_.status());
   add_commands(*status_, gateway_);

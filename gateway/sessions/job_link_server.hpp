@@ -101,6 +101,10 @@ class JobLinkServer {
   const EventLog& events() const { return events_; }
   const Options& options() const { return options_; }
   const joblink::MachineInfo& machine() const { return machine_info_; }
+  /// Made once a turn of the loop, however many ask; and anew after a command. Valid until then.
+  const joblink::Status& status();
+  /// Each that status() makes has a number of its own.
+  std::uint64_t statuses_made() const { return statuses_made_; }
 
  private:
   friend class JobLinkSession;
@@ -120,8 +124,6 @@ class JobLinkServer {
   void tell(LocalTime now, joblink::Event event);
   joblink::Problem no_control() const;
   double unix_s(LocalTime now) const;
-  /// Made once a turn of the loop, however many ask; and anew after a command.
-  const joblink::Status& status();
   const std::string& status_message();
   void forget_status() { status_.reset(); }
   /// An interrupted job goes on: that is a run of its own.
@@ -152,6 +154,7 @@ class JobLinkServer {
   std::vector<std::shared_ptr<JobCheckTask>> checks_;
   std::optional<joblink::Status> status_;
   std::string status_bytes_;  ///< of it, as a message; empty: not made yet
+  std::uint64_t statuses_made_ = 0;
 };
 
 }  // namespace kinebus

@@ -74,5 +74,29 @@ TEST_F(HostsTest, WhoKnocksIsLetInWhenTheStreamsMayWork) {
   ::close(*other);
 }
 
+TEST_F(HostsTest, WhoComesByTheJobLinkHasAPlaceWhenTheCrowdAtTheHttpPortHasTakenAllOfIts) {
+  StreamHub near(loop_), far(loop_, {.max_streams = 1});
+  far.add_side({.max_streams = 1});
+  JobLinkHost job_link(loop_, near, far, *rig_.server);
+  HttpHost http(loop_, far);
+  ASSERT_EQ(job_link.listen_tcp("127.0.0.1:0", folder_.path() / "tls"), "");
+  ASSERT_EQ(http.listen("127.0.0.1:0", folder_.path() / "tls", http_), "");
+  const auto streams_are = [&](std::size_t count) {
+    const LocalTime limit = monotonic_now() + LocalTime{60s};
+    while (far.streams() != count && monotonic_now() < limit) {
+      far.on_time(monotonic_now());
+      loop_.wait(monotonic_now() + LocalTime{1ms});
+    }
+    return far.streams() == count;
+  };
+  const auto crowd = connect_tcp("127.0.0.1", std::to_string(http.port()));
+  ASSERT_TRUE(crowd && streams_are(1));
+  const auto one = connect_tcp("127.0.0.1", std::to_string(job_link.tcp_port()));
+  ASSERT_TRUE(one);
+  EXPECT_TRUE(streams_are(2));
+  ::close(*one);
+  ::close(*crowd);
+}
+
 }  // namespace
 }  // namespace kinebus

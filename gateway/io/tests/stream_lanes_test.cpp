@@ -176,6 +176,92 @@ TEST_F(LanesTest, WhoHasJustComeIsInNoLane) {
   EXPECT_GE(monotonic_now() - begin, LocalTime{200ms});
 }
 
+/// Each takes less than is frugal for one.
+TEST_F(LanesTest, ManyWhoTakeAPartEachDoNotFillTheLane) {
+  StreamHub::Options lane = kLane;
+  lane.frugal = {.share = 0.2, .burst = 3ms, .pause = 300ms};
+  lane.frugal_together = 0.1;
+  StreamHub hub(loop_, {.share = 1, .burst = 1s});
+  hub.add_lane(Rank::kMayStop, lane);
+  std::array<int, 10> crowd{};
+  for (int& end : crowd) end = add(hub, 'f', Rank::kMayStop);
+  add(hub, 'c', Rank::kMayStop);
+  // 5 % of the loop's time each, which is half a millisecond every 10: until they have stayed out for three
+  // pauses.
+  const LocalTime begin = monotonic_now();
+  LocalTime now = begin, next = begin, out_since = begin;
+  while (now < out_since + LocalTime{900ms} && now < begin + LocalTime{60s}) {
+    if (now >= next) {
+      next = now + LocalTime{10ms};
+      for (const int end : crowd) say(end);
+    }
+    hub.on_time(now);
+    loop_.wait(std::min(hub.next_deadline(), now + LocalTime{1ms}));
+    now = monotonic_now();
+    if (hub.streams_first() != 1) out_since = now;
+  }
+  EXPECT_GE(now, out_since + LocalTime{900ms})
+      << "one takes nothing, and " << hub.streams_first() << " are in the lane";
+}
+
+TEST_F(LanesTest, WhoIsApartIsHeardWhileTheCrowdRestsAndHasPlacesWhenItHasNone) {
+  StreamHub hub(loop_, {.max_streams = 2, .share = 0.02, .burst = 2ms});
+  hub.add_lane(Rank::kMayStop, kLane);
+  hub.add_side({.max_streams = 1, .share = 0.5, .burst = 100ms, .at_once = true});
+  const std::array<int, 2> crowd{add(hub, 'f', Rank::kAny), add(hub, 'f', Rank::kAny)};
+  const auto newcomer = [&](int* closed, StreamHub::Side side) {
+    std::array<int, 2> both{};
+    EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, both.data()), 0);
+    ends_.push_back(both[1]);
+    return hub.add(std::make_unique<SocketStream>(both[0]), std::make_unique<Echo>(closed), side);
+  };
+  int closed = 0;
+  EXPECT_FALSE(newcomer(&closed, StreamHub::Side::kCommon));
+  ASSERT_TRUE(newcomer(&closed, StreamHub::Side::kApart));
+  const int apart = ends_.back();
+  EXPECT_FALSE(newcomer(&closed, StreamHub::Side::kApart));
+  EXPECT_EQ(hub.streams(), 3U);
+  for (int i = 0; i < 20; ++i) {
+    for (const int end : crowd) say(end);
+    hub.on_time(monotonic_now());
+    loop_.wait(monotonic_now());
+  }
+  for (int i = 0; i < 20; ++i) {
+    for (const int end : crowd) say(end);
+    hub.on_time(monotonic_now());
+    say(apart);
+    loop_.wait(monotonic_now());
+    char heard = 0;
+    EXPECT_EQ(::recv(apart, &heard, 1, MSG_DONTWAIT), 1) << "turn " << i;
+  }
+  EXPECT_EQ(hub.streams_first(), 0U);
+}
+
+TEST_F(LanesTest, WhoIsApartAndFrugalIsInTheLaneOfItsRankAndComesBack) {
+  StreamHub hub(loop_, {.share = 0.5, .burst = 100ms});
+  hub.add_lane(Rank::kInControl, kLane);
+  hub.add_side({.max_streams = 1, .share = 0.5, .burst = 100ms});
+  std::array<int, 2> both{};
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, both.data()), 0);
+  ends_.push_back(both[1]);
+  auto made = std::make_unique<Noted>('c', &order_, Rank::kInControl);
+  Noted& session = *made;
+  ASSERT_TRUE(hub.add(std::make_unique<SocketStream>(both[0]), std::move(made), StreamHub::Side::kApart));
+  const auto heard_in = [&](std::size_t first) {
+    hub.on_time(monotonic_now());
+    EXPECT_EQ(hub.streams_first(), first);
+    order_.clear();
+    say(both[1]);
+    loop_.wait(monotonic_now());
+    EXPECT_EQ(order_, "c");
+    int closed = 0;
+    EXPECT_FALSE(hub.add(nullptr, std::make_unique<Echo>(&closed), StreamHub::Side::kApart)) << "its place";
+  };
+  heard_in(1);
+  session.rises_to(Rank::kAny);
+  heard_in(0);
+}
+
 TEST_F(LanesTest, WhatALaneTakesItsHubPays) {
   StreamHub hub(loop_, {.share = 0.2, .burst = 10ms});
   hub.add_lane(Rank::kMayStop, {.share = 0.15, .burst = 10ms, .at_once = true});

@@ -7,11 +7,21 @@
 #include "gateway/sessions/http/http_session.hpp"
 #include "gateway/sessions/http/kinebus/message_json.hpp"
 #include "gateway/sessions/http/moonraker/moonraker.hpp"
+#include "gateway/sessions/http/wire/websocket.hpp"
 
 namespace kinebus::http {
 namespace {
 constexpr LocalTime kStatusShared = std::chrono::milliseconds{20};
 constexpr LocalTime kNotePeriod = std::chrono::seconds{1};
+
+/// What libraries do once, with the first message of JSON and the first websocket: 15 million instructions,
+/// which a machine that runs would have to wait for.
+void warm_up() {
+  joblink::ClientMessage message;
+  static_cast<void>(from_json("{}", message));
+  static_cast<void>(to_json(joblink::Status()));
+  static_cast<void>(accept_of("AAAAAAAAAAAAAAAAAAAAAA=="));
+}
 }  // namespace
 
 Server::Server(JobLinkServer& link, JobStore& store, Worker& worker, Control& control, Options options)
@@ -23,6 +33,7 @@ Server::Server(JobLinkServer& link, JobStore& store, Worker& worker, Control& co
       database_(options_.database),
       noter_(std::make_unique<Caller>(*this, LocalTime{0})) {
   noter_->become({.role = Role::kWatch});
+  warm_up();
 }
 
 Server::~Server() = default;
@@ -57,14 +68,19 @@ bool Server::make_room_for_socket(LocalTime now) {
   return true;
 }
 
-const std::string& Server::status_json(LocalTime now, Caller& by) {
-  if (!status_json_.empty() && now < status_until_) return status_json_;
-  joblink::ClientMessage message;
-  message.mutable_get_status();
+const std::string& Server::status_json() {
+  const joblink::Status& status = link_.status();
+  if (status_made_ == link_.statuses_made()) return status_json_;
+  status_made_ = link_.statuses_made();
   status_json_.clear();
-  append_json(status_json_, by.ask_now(message).status());
-  status_until_ = now + kStatusShared;
+  append_json(status_json_, status);
   return status_json_;
+}
+
+const std::string& Server::recent_status_json(LocalTime now) {
+  if (!status_json_.empty() && now < status_until_) return status_json_;
+  status_until_ = now + kStatusShared;
+  return status_json();
 }
 
 std::unique_ptr<ByteSession> Server::open(LocalTime now, std::string transport, std::string peer,

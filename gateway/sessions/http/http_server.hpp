@@ -84,8 +84,11 @@ class Server {
   bool make_room_for_socket(LocalTime now);
   std::size_t sessions() const { return sessions_.size(); }
 
-  /// The machine's status as the API of Kinebus tells it, made once for all who hear it about now.
-  const std::string& status_json(LocalTime now, Caller& by);
+  /// The machine's status as the API of Kinebus tells it: made once for all who ask in this turn of the loop,
+  /// and anew after a command.
+  const std::string& status_json();
+  /// The same, of some ms ago at most: for who hears it again and again.
+  const std::string& recent_status_json(LocalTime now);
 
   /// What OctoPrint calls the selected file; empty: none.
   std::string selected;
@@ -131,6 +134,7 @@ class Server {
   std::unique_ptr<Caller> noter_;
   LocalTime next_note_{0};
   std::string status_json_;
+  std::uint64_t status_made_ = 0;  ///< of which status it tells (JobLinkServer::statuses_made)
   LocalTime status_until_{0};
 };
 

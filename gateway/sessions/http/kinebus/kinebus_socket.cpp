@@ -33,6 +33,7 @@ class KinebusDialect : public Dialect {
       return refuse(number, problem(joblink::ERROR_NOT_ALLOWED, {}, say("say hello first")));
     if (message.has_ping()) return reply({}, number);
     if (message.has_watch()) return watch(number, message.watch());
+    if (message.has_get_status()) return status(number);
     socket_.command(message, [this, number](const Reply& answer) { reply(answer, number); });
   }
 
@@ -46,7 +47,7 @@ class KinebusDialect : public Dialect {
     }
     if (now < next_status_ || !socket_.has_room()) return;
     next_status_ = std::max(next_status_ + status_period_, now);
-    tell("status", socket_.server().status_json(now, socket_));
+    tell("status", socket_.server().recent_status_json(now));
   }
 
   LocalTime next_news() const override {
@@ -94,6 +95,11 @@ class KinebusDialect : public Dialect {
     reply({}, number);
   }
 
+  /// What a Reply of it is as JSON, but that the status is written once for all who ask.
+  void status(std::uint32_t number) {
+    tell("reply",
+         "{\"request_id\":" + std::to_string(number) + ",\"status\":" + socket_.server().status_json() + "}");
+  }
   void tell(const char* what, const std::string& json) {
     socket_.say(std::string("{\"").append(what).append("\":").append(json).append("}"));
   }
