@@ -39,7 +39,8 @@ constexpr std::size_t kHeapBytes = 24 << 20;
 constexpr double kBytesPerGib = 1073741824;
 /// Clients' part of the loop's time, of those near the machine and those of the network. With what was saved
 /// and with planning it is less than the 95 % of a second at which Linux stops a real-time thread until the
-/// second is over. A stop from nearby hardly waits for SYNC.
+/// second is over. What the network leaves of its part is for those near the machine, too. A stop from nearby
+/// hardly waits for SYNC.
 constexpr StreamHub::Options kNear{.share = 0.15,
                                    .burst = std::chrono::milliseconds{50},
                                    .most_kept_clear = std::chrono::milliseconds{1},
@@ -235,6 +236,7 @@ void Service::take_up_what_was_noted() {
 
 void Service::listen() {
   hub_.comes_after(near_);
+  hub_.leaves_to(near_);  // an upload by USB, mostly
   hub_.add_lane(ByteSession::Rank::kInControl, kControl);
   hub_.add_lane(ByteSession::Rank::kMayStop, kMayStop);
   hub_.add_side(kLink);

@@ -72,6 +72,8 @@ class StreamHub : public DaemonPart, private WorkGate {
   /// Before each piece of this one's work the other is looked at; where it had something to do, that goes out
   /// on the bus first. Lanes come before their hub as it is.
   void comes_after(StreamHub& other);
+  /// What of this one's share nobody uses, the other one may use besides its own.
+  void leaves_to(StreamHub& other) { heir_ = &other; }
 
   /// False: too many streams, both are destroyed.
   bool add(std::unique_ptr<ByteStream> stream, std::unique_ptr<ByteSession> session,
@@ -129,6 +131,7 @@ class StreamHub : public DaemonPart, private WorkGate {
   std::array<std::unique_ptr<StreamHub>, kRanks + 1> lanes_;  ///< by rank, and the side
   StreamHub* whole_ = nullptr;                                ///< whose lane this is
   std::vector<StreamHub*> before_;
+  StreamHub* heir_ = nullptr;  ///< of what this one's share leaves over
   LocalTime looks_at_{0};
   std::size_t first_ = 0;                    ///< who is served first in the next turn
   LocalTime work_until_ = LocalTime::max();  ///< of this turn; max: it has not begun

@@ -103,7 +103,10 @@ void StreamHub::pay(LocalTime now) {
   const auto share_of = [&](LocalTime time) {
     return LocalTime{static_cast<std::int64_t>(options_.share * static_cast<double>(time.count()))};
   };
-  credit_ = std::min(options_.burst, credit_ + share_of(now - paid_));
+  credit_ += share_of(now - paid_);
+  if (heir_ != nullptr && credit_ > options_.burst)
+    heir_->credit_ = std::min(heir_->options_.burst, heir_->credit_ + credit_ - options_.burst);
+  credit_ = std::min(options_.burst, credit_);
   paid_ = now;
   owed_ += used_;
   for (const auto& lane : lanes_)

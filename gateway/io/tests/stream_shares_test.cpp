@@ -146,6 +146,40 @@ TEST_F(StreamsTest, WhoAlwaysHasSomethingToDoLeavesOthersTheirTurn) {
   ::close(ends[1]);
 }
 
+TEST_F(StreamsTest, WhatOneHubLeavesOfItsShareAnotherMayUseAndNoMore) {
+  enum class Other { kKeepsIt, kLeavesIt, kUsesIt };
+  const auto heard_beside = [&](Other other) {
+    int heard = 0, ignored = 0, turned = 0;
+    StreamHub hub(loop_, {.share = 0.1, .burst = 10ms}), beside(loop_, {.share = 0.5, .burst = 10ms});
+    if (other != Other::kKeepsIt) beside.leaves_to(hub);
+    std::array<int, 2> ends{}, busy{};
+    for (auto* const pair : {&ends, &busy})
+      EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, pair->data()), 0);
+    EXPECT_TRUE(hub.add(std::make_unique<SocketStream>(ends[0]), std::make_unique<Laborious>(&heard)));
+    std::unique_ptr<ByteSession> session;
+    if (other == Other::kUsesIt)
+      session = std::make_unique<Busy>(&ignored, &turned);
+    else
+      session = std::make_unique<Laborious>(&ignored);
+    EXPECT_TRUE(beside.add(std::make_unique<SocketStream>(busy[0]), std::move(session)));
+    // Time goes by a millisecond a turn here, whatever the computer's does: what is used is the processor's.
+    LocalTime now = monotonic_now();
+    for (int turn = 0; turn < 400; ++turn, now += LocalTime{1ms}) {
+      [[maybe_unused]] const ssize_t sent = ::send(ends[1], "x", 1, MSG_DONTWAIT);
+      hub.on_time(now);
+      beside.on_time(now);
+      loop_.wait(monotonic_now());
+    }
+    ::close(ends[1]);
+    ::close(busy[1]);
+    return heard;
+  };
+  const int alone = heard_beside(Other::kKeepsIt), left = heard_beside(Other::kLeavesIt),
+            shared = heard_beside(Other::kUsesIt);
+  EXPECT_GT(left, 2 * alone) << shared;
+  EXPECT_LT(shared, alone * 3 / 2) << left;
+}
+
 TEST_F(StreamsTest, OneThatAlwaysHasSomethingToDoPaysForIt) {
   int ignored = 0;
   StreamHub hub(loop_, {.share = 0.2, .burst = 10ms});
