@@ -9,7 +9,6 @@ namespace kinebus {
 namespace {
 
 using namespace std::chrono_literals;
-using Step = StallRecovery::Step;
 
 class StallRecoveryTest : public ::testing::Test {
  protected:
@@ -21,10 +20,10 @@ class StallRecoveryTest : public ::testing::Test {
     return clears_and_goes_on(stall, from);
   }
   bool clears_and_goes_on(StallRecovery& stall, BusTime from) {
-    if (stall.next(from + 2s, from, true) != Step::kClear) return false;
-    EXPECT_EQ(stall.next(from + 2s, from, true), Step::kNone) << "each step once";
-    const bool goes = stall.next(from + 3s, from + 2s, false) == Step::kGoOn;
-    EXPECT_EQ(stall.next(from + 3s, from + 2s, false), Step::kNone) << "each step once";
+    if (stall.next(from + 2s, from, true) != StallRecovery::Step::kClear) return false;
+    EXPECT_EQ(stall.next(from + 2s, from, true), StallRecovery::Step::kNone) << "each step once";
+    const bool goes = stall.next(from + 3s, from + 2s, false) == StallRecovery::Step::kGoOn;
+    EXPECT_EQ(stall.next(from + 3s, from + 2s, false), StallRecovery::Step::kNone) << "each step once";
     return goes;
   }
   MachineDescription machine_;
@@ -65,9 +64,10 @@ TEST_F(StallRecoveryTest, WhatElseGoesWrongInTheSameStopEndsIt) {
   StallRecovery late(machine_, events_);
   late.on_stall(10s, 1s, say("a test"));
   late.on_stop(10s, true);
-  EXPECT_EQ(late.next(12s, 10s, true), Step::kClear);
+  EXPECT_EQ(late.next(12s, 10s, true), StallRecovery::Step::kClear);
   late.on_stop(12s, false);
-  EXPECT_EQ(late.next(13s, 12s, false), Step::kNone) << "cleared, and stopped again for another cause";
+  EXPECT_EQ(late.next(13s, 12s, false), StallRecovery::Step::kNone)
+      << "cleared, and stopped again for another cause";
 }
 
 TEST_F(StallRecoveryTest, ACommandTakesOver) {
@@ -82,8 +82,8 @@ TEST_F(StallRecoveryTest, WaitsUntilEverythingThatIsWrongHasBeenTold) {
   StallRecovery stall(machine_, events_);
   stall.on_stall(10s, 1s, say("a test"));
   stall.on_stop(10s, true);
-  EXPECT_EQ(stall.next(11s - 1ns, 10s, true), Step::kNone);
-  EXPECT_EQ(stall.next(11s, 10s, true), Step::kClear);
+  EXPECT_EQ(stall.next(11s - 1ns, 10s, true), StallRecovery::Step::kNone);
+  EXPECT_EQ(stall.next(11s, 10s, true), StallRecovery::Step::kClear);
 }
 
 TEST_F(StallRecoveryTest, FiveTimesInARowAndThenAPersonIsNeeded) {
@@ -94,9 +94,9 @@ TEST_F(StallRecoveryTest, FiveTimesInARowAndThenAPersonIsNeeded) {
   while (const auto event = events_.pop())
     told = told || event->words.find("waits for a person") != std::string::npos;
   EXPECT_TRUE(told);
-  EXPECT_EQ(stall.next(3100s, 3100s, false), Step::kNone) << "it stands no more";
+  EXPECT_EQ(stall.next(3100s, 3100s, false), StallRecovery::Step::kNone) << "it stands no more";
   EXPECT_FALSE(goes_on(stall, 10s + 6 * 600s)) << "until somebody commands";
-  EXPECT_EQ(stall.next(3700s, 3700s, false), Step::kNone);
+  EXPECT_EQ(stall.next(3700s, 3700s, false), StallRecovery::Step::kNone);
   stall.commanded();
   EXPECT_TRUE(goes_on(stall, 10s + 7 * 600s));
   StallRecovery seldom(machine_, events_);
