@@ -205,17 +205,17 @@ TEST_F(LanesTest, ManyWhoTakeAPartEachDoNotFillTheLane) {
 }
 
 TEST_F(LanesTest, WhoIsApartIsHeardWhileTheCrowdRestsAndHasPlacesWhenItHasNone) {
+  int closed = 0;  // told when the hub ends
   StreamHub hub(loop_, {.max_streams = 2, .share = 0.02, .burst = 2ms});
   hub.add_lane(Rank::kMayStop, kLane);
   hub.add_side({.max_streams = 1, .share = 0.5, .burst = 100ms, .at_once = true});
   const std::array<int, 2> crowd{add(hub, 'f', Rank::kAny), add(hub, 'f', Rank::kAny)};
-  const auto newcomer = [&](int* closed, StreamHub::Side side) {
+  const auto newcomer = [&](int* told, StreamHub::Side side) {
     std::array<int, 2> both{};
     EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, both.data()), 0);
     ends_.push_back(both[1]);
-    return hub.add(std::make_unique<SocketStream>(both[0]), std::make_unique<Echo>(closed), side);
+    return hub.add(std::make_unique<SocketStream>(both[0]), std::make_unique<Echo>(told), side);
   };
-  int closed = 0;
   EXPECT_FALSE(newcomer(&closed, StreamHub::Side::kCommon));
   ASSERT_TRUE(newcomer(&closed, StreamHub::Side::kApart));
   const int apart = ends_.back();
