@@ -74,7 +74,7 @@ void Max31865Chip::convert() {
   std::normal_distribution<double> noise(0, 0.3);
   const double steps = std::floor(share * 32768 + noise(random_));
   const auto code = static_cast<std::uint16_t>(std::clamp(steps, 0.0, 32767.0));
-  const auto threshold = [&](int at) { return (registers_[at] << 8 | registers_[at + 1]) >> 1; };
+  const auto threshold = [&](std::size_t at) { return (registers_[at] << 8 | registers_[at + 1]) >> 1; };
   if (code >= threshold(3)) registers_[kFaults] |= kAbove;
   if (code <= threshold(5)) registers_[kFaults] |= kBelow;
   registers_[kHigh] = static_cast<std::uint8_t>(code >> 7);
