@@ -44,6 +44,7 @@ constexpr std::int64_t kLeastSpeed = velocity_from(1);
 
 ProfileState LinearInterpolator::Ramp::at(ProfileTicks time) const {
   const ProfileTicks t = std::clamp<ProfileTicks>(time - start, 0, kLongest), part = std::min(t, length);
+  // Nothing is multiplied for a line without acceleration: an Octopus with a full bus has no time for it.
   const std::int64_t change = acceleration == 0 ? 0 : change_in(absolute(acceleration), part);
   const std::int64_t way =
       distance_of(from.velocity, part) + with_sign_of(acceleration, distance_of(change, part) / 2);
