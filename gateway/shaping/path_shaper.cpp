@@ -119,7 +119,7 @@ std::optional<Phase> PathShaper::pause_before(const Phase& phase) const {
   // A rest in the midst of motion would be a step.
   if (std::abs(rest.speed(rest.duration_s)) > kAtRest) return std::nullopt;
   double pause_s = pause_s_;
-  if (!along_tip_ || last.model == advance_) {
+  if (last.model == advance_) {
     const bool after_tool = moves_tool(rest);
     if (after_tool == moves_tool(phase)) return std::nullopt;
     if (after_tool)

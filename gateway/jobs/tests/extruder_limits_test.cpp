@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "gateway/jobs/job_pipeline.hpp"
 #include "gateway/jobs/tests/job_support.hpp"
@@ -157,6 +158,47 @@ TEST(ExtruderLimits, HoldForAnyAdvanceWindowShaperAndJob) {
   EXPECT_TRUE(rc::check([] {
     for (int n = 0; n < 10; ++n) expect_within_limits(random_machine(), random_job(among(2) == 0));
   }));
+}
+
+/// Found by the above: a bead with another advance right behind one, without a shaper, while the window still
+/// had the advance of the one before.
+TEST(ExtruderLimits, HoldWhereTheAdvanceChangesBetweenTwoBeads) {
+  struct Case {
+    AdvanceModel model;
+    double speed, accel;
+    std::string job;
+  };
+  const std::string begin = "G21 G90 M83\nM104 S210\nG1 Z5 F6000\nG1 E1 F600\n";
+  const std::vector<Case> cases = {
+      {{.advance_s = 0.0745159, .smooth_s = 0.00593569},
+       44.5347,
+       507.687,
+       "G1 X0.63129 Y4.27342 F1783\nG1 X0.67456 Y4.23880 E0.00233 F742.69235\nM572 S0.01038\n"
+       "G1 X0.84533 Y4.07980 E0.01244 F1005.56981\n"},
+      {{.advance_s = 0.0261392, .smooth_s = 0.0157729},
+       58.5359,
+       531.152,
+       "G1 X0.02965 Y-0.80789 E0.02860 F1058.20479\nM572 S0.00579\n"
+       "G1 X0.41428 Y-1.32248 E0.05639 F3468.58321\n"},
+      {{.advance_s = 0.094665, .melt_s = 0.00925628, .smooth_s = 0.046527},
+       53.1235,
+       2289.64,
+       "G1 X-12.33527 Y40 E1.69726 F819.97203\nM572 S0.02722\nG1 X-12.86557 Y40 E0.11243 F5042.52999\n"
+       "M572 S0\nG1 X-12.88378 Y40 E0.00324 F3135.68806\nG1 X-12.84885 Y40 E0.04924 F9075.97768\n"},
+  };
+  for (const Case& c : cases) {
+    MachineDescription machine = default_m1();
+    machine.pressure_advance = c.model;
+    for (JointDescription& joint : machine.joints)
+      if (joint.name == "E") {
+        joint.speed_per_s = c.speed;
+        joint.accel_per_s2 = c.accel;
+      }
+    const Ratios ratios = measure(machine, job_test::kinematics(), begin + c.job);
+    EXPECT_EQ(ratios.refused, "") << c.job;
+    EXPECT_LE(ratios.accel, 1.0) << c.job;
+    EXPECT_LE(ratios.speed, 1.0) << c.job;
+  }
 }
 
 }  // namespace
