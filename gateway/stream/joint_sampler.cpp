@@ -120,10 +120,9 @@ double JointSampler::end_error(const JointSpan& span, const Knot& end, double h)
   return worst * h * h / 32;
 }
 
-Result<std::optional<JointSpan>, StreamError> JointSampler::next() {
-  if (!active_) return std::nullopt;
-  std::optional<JointSpan> result{std::in_place};
-  JointSpan& span = *result;
+Result<const JointSpan*, StreamError> JointSampler::next() {
+  if (!active_) return nullptr;
+  JointSpan& span = span_;
   Knot end;
   double t1 = 0;
   for (;;) {
@@ -157,6 +156,7 @@ Result<std::optional<JointSpan>, StreamError> JointSampler::next() {
   knot_ = end;
   done_s_ = t1;
   ++counters_.spans;
+  span.last = false;
   if (t1 >= phase_.duration_s) {
     span.last = phase_.last;
     ended_ = phase_.last;
@@ -164,7 +164,7 @@ Result<std::optional<JointSpan>, StreamError> JointSampler::next() {
     done_s_ = 0;
     active_ = false;
   }
-  return result;
+  return &span;
 }
 
 }  // namespace kinebus

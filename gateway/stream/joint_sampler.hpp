@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 
 #include "gateway/calibration/joint_map.hpp"
 #include "gateway/kinematics/kinematics.hpp"
@@ -48,9 +47,9 @@ class JointSampler {
   /// Error kPose: its first pose cannot be taken; kPhaseOrder: not asked for; kNotAtRest: a speed at the
   /// run's start or, with phase.last, at its end. Phases below 0.2 us go into the next span.
   Result<void, StreamError> push(const Phase& phase);
-  /// The next span, of which the one that ends a phase with `last` is marked `last`. nullopt: push a phase,
-  /// or the run is over. Error kPose: the path cannot be reached there.
-  Result<std::optional<JointSpan>, StreamError> next();
+  /// The next span, valid until the next call, of which the one that ends a phase with `last` is marked
+  /// `last`. nullptr: push a phase, or the run is over. Error kPose: the path cannot be reached there.
+  Result<const JointSpan*, StreamError> next();
 
   /// The run's last span was given out.
   bool ended() const { return ended_; }
@@ -83,6 +82,7 @@ class JointSampler {
   double done_s_ = 0;  ///< of the phase; negative at first where shorter phases came before
   double step_s_ = 0;
   Knot knot_{};
+  JointSpan span_;
 };
 
 }  // namespace kinebus

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <optional>
 
 namespace kinebus {
 namespace {
@@ -104,19 +105,20 @@ Result<void, StreamError> StreamGroup::pump() {
   for (Node& node : nodes_) drain(node);
   const auto room = [](const Node& node) { return node.segmenter.has_room() && node.stream.has_room(); };
   while (std::all_of(nodes_.begin(), nodes_.end(), room)) {
-    auto span = take_up_.next();
-    if (!span) {
-      auto sampled = sampler_.next();
+    std::optional<JointSpan> taken_up;
+    if (take_up_.needed()) taken_up = take_up_.next();
+    if (!taken_up) {
+      const auto sampled = sampler_.next();
       if (!sampled) return Error<StreamError>(sampled.error());
-      if (!*sampled) break;
-      if (take_up_.needed()) {
-        take_up_.push(**sampled);
-        span = take_up_.next();
-      } else {
-        span = *sampled;
+      if (*sampled == nullptr) break;
+      if (!take_up_.needed()) {
+        if (auto ok = feed(**sampled); !ok) return ok;
+        continue;
       }
+      take_up_.push(**sampled);
+      taken_up = take_up_.next();
     }
-    if (auto ok = feed(*span); !ok) return ok;
+    if (auto ok = feed(*taken_up); !ok) return ok;
   }
   return {};
 }

@@ -26,12 +26,13 @@ constexpr auto kCrcTable = [] {
 
 // State of the stuffer: level of the last bit, and how many in a row had it (1..4; a fifth brings the stuff
 // bit, and with it a run of one): level * 4 + run - 1.
-// A step of one byte gives the next state in bits 8 to 10, and the stuff bits that it brings below.
-constexpr unsigned kStates = 8, kStateMask = 0x700;
+// A byte's word has a byte for each state before it: state behind it * 8 (six bits), which is how far the
+// next byte's word is to be shifted, and above that how many stuff bits it brings (at most 2).
+constexpr unsigned kStates = 8, kShiftMask = 0x3F, kStuffedMask = 0xC0, kStuffedShift = 6;
 constexpr auto kStuffTable = [] {
-  std::array<std::uint16_t, std::size_t{kStates} * 256> table{};
-  for (unsigned state = 0; state < kStates; ++state) {
-    for (unsigned byte = 0; byte < 256; ++byte) {
+  std::array<std::uint64_t, 256> table{};
+  for (unsigned byte = 0; byte < 256; ++byte) {
+    for (unsigned state = 0; state < kStates; ++state) {
       unsigned level = state / 4, run = state % 4 + 1, stuffed = 0;
       for (int bit = 7; bit >= 0; --bit) {
         const unsigned next = (byte >> bit) & 1u;
@@ -43,21 +44,22 @@ constexpr auto kStuffTable = [] {
           run = 1;
         }
       }
-      table[state * 256 + byte] = static_cast<std::uint16_t>((level * 4 + run - 1) << 8 | stuffed);
+      const std::uint64_t step = (level * 4 + run - 1) * 8 | stuffed << kStuffedShift;
+      table[byte] |= step << (8 * state);
     }
   }
   return table;
 }();
 
-// What the bytes of header and data leave in the CRC and in the stuffer. A stuffer's sum of steps holds the
-// number of stuff bits in its low byte.
+// What the bytes of header and data leave in the CRC and in the stuffer.
 struct Passed {
   unsigned crc = 0;
-  unsigned step = 0, sum = 0;
+  std::uint64_t step = 0;  ///< its low byte counts
+  unsigned stuffed = 0;    ///< stuff bits, shifted
 
   void stuff(unsigned byte) {
-    step = kStuffTable[(step & kStateMask) | (byte & 0xFFu)];
-    sum += step;
+    step = kStuffTable[byte & 0xFFu] >> (step & kShiftMask);
+    stuffed += static_cast<unsigned>(step) & kStuffedMask;
   }
 };
 
@@ -113,7 +115,7 @@ int bit_length(const CanFrame& frame) {
   // The CRC, and one bit to fill the byte: unlike the last, so that it completes no run.
   passed.stuff(passed.crc >> 7);
   passed.stuff((passed.crc << 1) | ((passed.crc & 1u) ^ 1u));
-  const int stuffed = static_cast<int>(passed.sum & 0xFFu);
+  const int stuffed = static_cast<int>(passed.stuffed >> kStuffedShift);
   return header_bits + static_cast<int>(8 * data_bytes) + 15 + stuffed + 13;
 }
 
