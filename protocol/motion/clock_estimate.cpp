@@ -10,6 +10,10 @@ constexpr std::int64_t kHorizonNs = 16'000'000'000;
 // A sample further than this from the fit is a mistake (a wrong pairing, a clock that jumped), not latency.
 // Half of the shortest period of SYNC.
 constexpr std::int64_t kMistakeNs = 2'500'000;
+// A window so much shorter than the horizon is a full one, a few SYNCs before one leaves it.
+constexpr std::int64_t kLongWindowNs = 1'000'000'000;
+// Of fits, some 1.6 s: beside a window of 16 s nothing.
+constexpr std::int64_t kSlopeFollows = 32;
 constexpr std::int64_t kLongestGapNs = 30'000'000'000;
 // So many mistakes one after another mean that the fit is the mistake.
 constexpr int kMaxStrangers = 3;
@@ -228,6 +232,7 @@ std::int32_t ClockEstimate::latency_limit(const Residuals& residuals) const {
 }
 
 void ClockEstimate::fit() {
+  const std::int64_t slope_before = slope_;
   if (count_ < 2) {
     offset_ = 0;  // the one sample is the origin; the slope stays what it was, for a new epoch
     spread_ = 0;
@@ -288,7 +293,10 @@ void ClockEstimate::fit() {
   });
   for (int i = std::max(low_turn - 1, 0); i <= low_turn; ++i) consider(low_slope(i));
   for (int i = std::max(high_turn - 1, 0); i <= high_turn; ++i) consider(high_slope(i));
-  slope_ = best_slope;
+  // Which strip is the thinnest, one sample more may change from one slope to another. Crystals do not jump:
+  // where the window tells nothing new but moves on, the slope follows slowly.
+  const bool moves_on = count_ == window_ || at(count_ - 1).bus - at(0).bus > kHorizonNs - kLongWindowNs;
+  slope_ = moves_on ? slope_before + (best_slope - slope_before) / kSlopeFollows : best_slope;
   offset_ = support(low, low_size, true, slope_, low_near);
   spread_ = std::max<std::int64_t>(best_width, 0);
 }
