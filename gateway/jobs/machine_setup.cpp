@@ -96,11 +96,12 @@ FilamentLimits limits_before_advance(const MachineDescription& machine, const Vi
   FilamentLimits filament;
   if (!window.acts()) return filament;
   const MotionLimits limits = motion_limits(machine);
-  double speed = limits.axis_speed_per_s[kE], accel = limits.axis_accel_per_s2[kE];
+  double speed = limits.axis_speed_per_s[kE], accel = limits.axis_accel_per_s2[kE], jerk = kUnlimited;
   for (std::size_t joint = 0; joint < machine.joints.size() && joint < kMaxJoints; ++joint) {
     if (machine.joints[joint].name != "E") continue;
     speed = std::min(speed, limits.joint_speed_per_s[joint]);
     accel = std::min(accel, limits.joint_accel_per_s2[joint]);
+    jerk = std::min(jerk, limits.joint_jerk_per_s3[joint]);
   }
   // 2 %, as the planner leaves joints, for what comes after planning; and what cubics may be off: of the
   // flow, its advance, and at both ends of the window.
@@ -113,9 +114,21 @@ FilamentLimits limits_before_advance(const MachineDescription& machine, const Vi
   const double steepest_s = model.steepest_s(), melt = window.melt_s / window.smooth_s;
   filament.flow_accel_mm_per_s2 =
       std::min(kShare * speed / (steepest_s * (1 + 2 * melt)), accel / model.most_gain());
+  if (jerk < kUnlimited) {
+    // The same for the jerk. Where A is bent, the flow's acceleration adds to it by its square: half for
+    // that.
+    const double bends = model.most_bend_s2_per_mm() * (2 + 4 * melt) / window.smooth_s;
+    if (bends > 0)
+      filament.flow_accel_mm_per_s2 = std::min(filament.flow_accel_mm_per_s2, std::sqrt(0.5 * jerk / bends));
+    const double flow_accel = filament.flow_accel_mm_per_s2;
+    filament.flow_jerk_mm_per_s3 = (jerk - bends * flow_accel * flow_accel) / model.most_gain();
+  }
   // With shapers of their own one axis still brakes while another speeds up.
   const VibrationDescription& v = vibration;
-  if (!(v.axis(0) == v.axis(1) && v.axis(1) == v.axis(2))) filament.flow_accel_mm_per_s2 *= 0.5;
+  if (!(v.axis(0) == v.axis(1) && v.axis(1) == v.axis(2))) {
+    filament.flow_accel_mm_per_s2 *= 0.5;
+    filament.flow_jerk_mm_per_s3 *= 0.5;
+  }
   filament.rests = true;
   return filament;
 }

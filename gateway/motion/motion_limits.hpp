@@ -18,6 +18,7 @@ inline constexpr double kCurvatureJump_s = 0.5e-3;
 struct FilamentLimits {
   double speed_mm_per_s = kUnlimited, accel_mm_per_s2 = kUnlimited;
   double flow_accel_mm_per_s2 = kUnlimited;  ///< while the tool moves
+  double flow_jerk_mm_per_s3 = kUnlimited;   ///< the same; where jerk is limited
   /// The path rests where the tool begins or ceases to move along with filament.
   bool rests = false;
   friend bool operator==(const FilamentLimits&, const FilamentLimits&) = default;
@@ -38,6 +39,7 @@ struct MotionLimits {
   Pose axis_accel_per_s2{kUnlimited, kUnlimited, kUnlimited, 31.41592653589793, 62.83185307179586, 3000};
   /// E while the tool moves, too: what pressure advance adds to it grows with it.
   double flow_accel_mm_per_s2 = kUnlimited;
+  double flow_jerk_mm_per_s3 = kUnlimited;  ///< where jerk is limited
   /// Each joint, in the kinematics' order; both terms of q'' count.
   JointVector joint_speed_per_s{450, 450, 450, 450, 6.283185307179586, 60, kUnlimited, kUnlimited};
   JointVector joint_accel_per_s2{5000, 5000, 5000, 5000, 62.83185307179586, 3000, kUnlimited, kUnlimited};

@@ -32,6 +32,7 @@ int parts_for(const PathPiece& piece, double part_mm, double part_rad) {
 /// Bounds over a stretch of a piece, whose derivatives vary little on it.
 JerkTerms jerk_terms(const PathPiece& geometry, double from, double to) {
   JerkTerms terms{.x1 = 0, .along2 = 0, .along3 = 0, .across3 = 0};
+  double least_e = 0, most_e = 0;
   for (const double s : {from, 0.5 * (from + to), to}) {
     const PosePoint p = geometry.evaluate(s);
     const auto third = geometry.third_derivative(s);
@@ -47,10 +48,20 @@ JerkTerms jerk_terms(const PathPiece& geometry, double from, double to) {
     terms.along2 = std::max(terms.along2, along(p.x2, size2));
     terms.along3 = std::max(terms.along3, along(x3, size3));
     if (size3 > 0) terms.across3 = std::max(terms.across3, 1 - along(x3, size3));
+    terms.e1 = std::max(terms.e1, std::abs(p.x1[kE]));
+    terms.e2 = std::max(terms.e2, std::abs(p.x2[kE]));
+    terms.e3 = std::max(terms.e3, std::abs(6 * geometry.coefficients[kE][3]));
+    least_e = std::min(least_e, p.x1[kE]);
+    most_e = std::max(most_e, p.x1[kE]);
   }
+  if (least_e < 0 && most_e > 0) terms.e_jump = 0.5 * terms.e2;
   for (double* term : {&terms.x1, &terms.x2, &terms.x3, &terms.along2, &terms.along3, &terms.across3})
     *term = std::sqrt(*term);
   return terms;
+}
+
+JerkTerms line_terms(double tool_rate, const PathPiece& line) {
+  return {.x1 = tool_rate, .e1 = std::abs(line.coefficients[kE][1])};
 }
 
 /// Between two places `length` apart.
@@ -92,6 +103,9 @@ Result<void, PoseError> PathLimits::start_of_line(const PathPiece& geometry) {
 bool PathLimits::jump_terms(const PathPiece& geometry, JerkTerms& terms, JointJerkTerms& joints) const {
   const JerkTerms one = jerk_terms(before_, before_.length, before_.length), two = jerk_terms(geometry, 0, 0);
   terms = {std::max(one.x1, two.x1), std::max(one.x2, two.x2), std::max(one.x3, two.x3)};
+  terms.e1 = std::max(one.e1, two.e1);
+  terms.e2 = std::max(one.e2, two.e2);
+  terms.e3 = std::max(one.e3, two.e3);
   const double back = std::min(kJumpLook_mm, before_.length), on = std::min(kJumpLook_mm, geometry.length);
   Sample far_before, before, after, far_after;
   far_before.pose = before_.evaluate(before_.length - back);
@@ -108,6 +122,7 @@ bool PathLimits::jump_terms(const PathPiece& geometry, JerkTerms& terms, JointJe
     jump2 += jump * jump;
   }
   terms.jump = std::sqrt(jump2);
+  terms.e_jump = std::abs(after.pose.x2[kE] - before.pose.x2[kE]);
   for (std::size_t j = 0; j < joints_; ++j) {
     joints.q1[j] = std::max(left.q1[j], right.q1[j]);
     joints.q2[j] = std::max(left.q2[j], right.q2[j]);
@@ -191,7 +206,7 @@ Result<void, PoseError> PathLimits::add_line_parts(const PieceDemand& demand, co
     limits_.add_joints(before.joints, after.joints, part);
     if (limits_.limits_jerk()) {
       const JointJerkTerms joints = joint_terms(before.joints, after.joints, part.length);
-      put({tool_rate, 0, 0}, &joints, part);
+      put(line_terms(tool_rate, geometry), &joints, part);
     } else {
       lookahead_->add(part);
     }
@@ -220,7 +235,8 @@ Result<void, PoseError> PathLimits::add_line(const PieceDemand& demand) {
   double ratio = limits_.joint_ratio(tail_, piece);
   const bool jerk = limits_.limits_jerk();
   PlanPiece even = piece;
-  if (jerk) limits_.limit_jerk({tool_rate, 0, 0}, nullptr, even);
+  const JerkTerms terms = line_terms(tool_rate, geometry);
+  if (jerk) limits_.limit_jerk(terms, nullptr, even);
   JointPoint before = tail_;
   Sample end;
   for (int i = 1; i <= far_parts; ++i) {
@@ -240,7 +256,7 @@ Result<void, PoseError> PathLimits::add_line(const PieceDemand& demand) {
       limits_.tip_cap(demand, geometry.evaluate(0), piece);
       limits_.tip_cap(demand, end.pose, piece);
     }
-    put({tool_rate, 0, 0}, nullptr, piece);
+    put(terms, nullptr, piece);
     return {};
   }
   return add_line_parts(demand, geometry, piece, tool_rate, parts_for(geometry, kNearLine_mm, kNearTurn_rad));

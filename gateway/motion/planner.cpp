@@ -206,6 +206,7 @@ Result<void, PlanError> Planner::Impl::limit_filament(const FilamentLimits& aske
     to.axis_speed_per_s[kE] = std::min(from.axis_speed_per_s[kE], filament.speed_mm_per_s);
     to.axis_accel_per_s2[kE] = std::min(from.axis_accel_per_s2[kE], filament.accel_mm_per_s2);
     to.flow_accel_mm_per_s2 = std::min(from.flow_accel_mm_per_s2, filament.flow_accel_mm_per_s2);
+    to.flow_jerk_mm_per_s3 = std::min(from.flow_jerk_mm_per_s3, filament.flow_jerk_mm_per_s3);
   };
   limits = machine;
   apply(limits, machine);
@@ -214,6 +215,7 @@ Result<void, PlanError> Planner::Impl::limit_filament(const FilamentLimits& aske
   current.axis_speed_per_s[kE] = std::min(limits.axis_speed_per_s[kE], speed);
   current.axis_accel_per_s2[kE] = std::min(limits.axis_accel_per_s2[kE], accel);
   current.flow_accel_mm_per_s2 = limits.flow_accel_mm_per_s2;
+  current.flow_jerk_mm_per_s3 = limits.flow_jerk_mm_per_s3;
   path_limits.set_limits(current);
   builder.set_limits(current);
   return ok;

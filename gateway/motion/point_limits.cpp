@@ -81,6 +81,7 @@ void PointLimits::set_limits(const MotionLimits& limits) {
     jerk_[j] = limits.joint_jerk_per_s3[j] * kJerkShare;
   }
   inverse_flow_accel_ = inverse_of(limits.flow_accel_mm_per_s2);
+  flow_jerk_ = limits.flow_jerk_mm_per_s3 * kJerkShare;
   limited_xyz_ = false;
   for (std::size_t i = 0; i < kPoseAxes; ++i) {
     inverse_axis_speed_[i] = inverse_of(limits.axis_speed_per_s[i]);
@@ -229,6 +230,10 @@ PlanPiece::Even PointLimits::even(const JerkTerms& terms, const JointJerkTerms* 
     const double joint_turn = 3 * joints->q2[j] * v;
     if (joint_turn * even.accel > room) even.accel = std::max(room, 0.0) / joint_turn;
   }
+  const bool flows = flow_jerk_ < kUnlimited && terms.x1 > 0;
+  const double flow_bend = flows ? bend_jerk(terms.e3, terms.e_jump, v) : 0;
+  if (const double flow_turn = 3 * terms.e2 * v; flows && flow_turn > 0)
+    even.accel = std::min(even.accel, std::max(kTurnJointJerk * (flow_jerk_ - flow_bend), 0.0) / flow_turn);
   // Whichever way the bend's own jerk points; or, by how much of it is across the path, and how much along
   // it.
   const double across = turn * even.accel + jump;
@@ -244,6 +249,9 @@ PlanPiece::Even PointLimits::even(const JerkTerms& terms, const JointJerkTerms* 
         jerk_[j] - bend_jerk(joints->q3[j], joints->jump[j], v) - 3 * joints->q2[j] * v * even.accel;
     if (joints->q1[j] * even.jerk > room) even.jerk = room / joints->q1[j];
   }
+  if (const double room = flow_jerk_ - flow_bend - 3 * terms.e2 * v * even.accel;
+      flows && terms.e1 * even.jerk > room)
+    even.jerk = std::max(room, 0.0) / terms.e1;
   return even;
 }
 
@@ -256,6 +264,11 @@ double PointLimits::bend_cap(double share, const JerkTerms& terms, const JointJe
     const double jump = kCurvatureJump_s * jerk_[j];
     if (joints->jump[j] * speed * speed > jump) speed = std::sqrt(jump / joints->jump[j]);
     lower_for_bend(joints->jump[j] > 0 ? kJumpJerk : share, joints->q3[j], joints->jump[j], jerk_[j], speed);
+  }
+  if (flow_jerk_ < kUnlimited && terms.x1 > 0) {
+    const double jump = kCurvatureJump_s * flow_jerk_;
+    if (terms.e_jump * speed * speed > jump) speed = std::sqrt(jump / terms.e_jump);
+    lower_for_bend(terms.e_jump > 0 ? kJumpJerk : share, terms.e3, terms.e_jump, flow_jerk_, speed);
   }
   const double cap = std::min(piece.cap, speed * speed);
   return piece.curved && piece.k2 * cap * cap > kBendAccel * kBendAccel * piece.accel * piece.accel

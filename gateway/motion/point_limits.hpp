@@ -40,6 +40,9 @@ inline void allow_any_acceleration(PlanPiece& piece) {
 /// a place without length, the jump of x_ss there.
 struct JerkTerms {
   double x1 = 1, x2 = 0, x3 = 0, jump = 0;
+  /// The same of filament. Where it turns from feeding to drawing back its advance ends at once, which counts
+  /// as a jump of half of e2.
+  double e1 = 0, e2 = 0, e3 = 0, e_jump = 0;
   /// Greatest shares: of x_ss and x_sss along the path, and of x_sss across it.
   double along2 = 1, along3 = 1, across3 = 1;
 };
@@ -105,7 +108,7 @@ class PointLimits {
   std::size_t joints_;
   JointVector inverse_speed_{}, inverse_accel_{}, accel_{}, jerk_{};
   Pose inverse_axis_speed_{}, inverse_axis_accel_{};
-  double inverse_flow_accel_ = 0;
+  double inverse_flow_accel_ = 0, flow_jerk_ = kUnlimited;
   bool limited_xyz_ = false;  ///< X, Y or Z have limits of their own
 };
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gateway/motion/speed_ramp.hpp"
-
 namespace kinebus {
 namespace {
 
@@ -59,14 +57,6 @@ void StartRamp::apply(const Phase& phase, double from_s, std::vector<Phase>& out
     out.push_back(rest);
   }
   if (out.size() > first) out.back().last = phase.last;
-}
-
-double time_at(const Phase& phase, double s) {
-  const double way = std::max(0.0, s - phase.s0);
-  if (phase.jerk != 0) return SpeedRamp::Stage{phase.duration_s, phase.v0, phase.a, phase.jerk}.time_of(way);
-  const double speed = std::sqrt(std::max(0.0, phase.v0 * phase.v0 + 2 * phase.a * way));
-  const double sum = phase.v0 + speed;
-  return sum > 0 ? std::min(phase.duration_s, 2 * way / sum) : 0;
 }
 
 }  // namespace kinebus

@@ -27,7 +27,4 @@ class StartRamp {
   double rate_ = 1;
 };
 
-/// Time into `phase` at which its path parameter is `s`.
-double time_at(const Phase& phase, double s);
-
 }  // namespace kinebus

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/motion/speed_ramp.hpp"
+
 namespace kinebus {
 
 PosePoint PathPiece::evaluate(double s) const {
@@ -52,6 +54,14 @@ double Phase::pose_speed(double t) const {
   double fastest = 0;
   for (const double x1 : at(t).x1) fastest = std::max(fastest, std::abs(x1));
   return fastest;
+}
+
+double time_at(const Phase& phase, double s) {
+  const double way = std::max(0.0, s - phase.s0);
+  if (phase.jerk != 0) return SpeedRamp::Stage{phase.duration_s, phase.v0, phase.a, phase.jerk}.time_of(way);
+  const double speed = std::sqrt(std::max(0.0, phase.v0 * phase.v0 + 2 * phase.a * way));
+  const double sum = phase.v0 + speed;
+  return sum > 0 ? std::min(phase.duration_s, 2 * way / sum) : 0;
 }
 
 }  // namespace kinebus

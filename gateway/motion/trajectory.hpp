@@ -47,4 +47,7 @@ struct Phase {
   double pose_speed(double t) const;
 };
 
+/// Time into `phase` at which its path parameter is `s`.
+double time_at(const Phase& phase, double s);
+
 }  // namespace kinebus

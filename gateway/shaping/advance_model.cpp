@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace kinebus {
 namespace {
@@ -55,6 +56,19 @@ double AdvanceModel::slope_s(double v) const {
   return advance_s;
 }
 
+double AdvanceModel::most_bend_s2_per_mm() const {
+  const double bend = nonlinear_mm / (nonlinear_mm_per_s * nonlinear_mm_per_s);
+  switch (kind) {
+    case AdvanceKind::kLinear:
+      break;
+    case AdvanceKind::kTanh:
+      return 4 / (3 * std::sqrt(3.0)) * bend;
+    case AdvanceKind::kReciprocal:
+      return 2 * bend;
+  }
+  return 0;
+}
+
 PhaseAdvance::PhaseAdvance(const Phase& phase, const Filament& c, const AdvanceModel& model) : model_(model) {
   if (!model.acts()) return;
   double least = 0, most = 0;
@@ -65,11 +79,46 @@ PhaseAdvance::PhaseAdvance(const Phase& phase, const Filament& c, const AdvanceM
   }
   if (!(most > 0)) return;
   const bool even = phase.a == 0 && phase.jerk == 0 && c[2] == 0 && c[3] == 0;
+  if (least < 0) find_turns(phase, c);
   way_ = least < 0 || (model.kind != AdvanceKind::kLinear && !even) ? Way::kNumeric : Way::kProportional;
 }
 
 double PhaseAdvance::flow(const Phase& phase, const Filament& c, double t) {
   return std::max(0.0, filament_slope(c, phase.s(t)) * phase.speed(t));
+}
+
+/// Flow is 0 where dE/ds is, and bent there: what is integrated as a polynomial ends at such places.
+void PhaseAdvance::find_turns(const Phase& phase, const Filament& c) {
+  std::array<double, 2> places{};
+  int count = 0;
+  if (c[3] != 0) {
+    const double half = c[2] / (3 * c[3]), square = half * half - c[1] / (3 * c[3]);
+    if (square > 0) {
+      places = {-half - std::sqrt(square), -half + std::sqrt(square)};
+      count = 2;
+    }
+  } else if (c[2] != 0) {
+    places[0] = -c[1] / (2 * c[2]);
+    count = 1;
+  }
+  const double end = phase.s(phase.duration_s);
+  for (int i = 0; i < count; ++i)
+    if (const double s = places[static_cast<std::size_t>(i)]; s > phase.s0 && s < end)
+      turns_[static_cast<std::size_t>(turn_count_++)] = time_at(phase, s);
+  if (turn_count_ == 2 && turns_[1] < turns_[0]) std::swap(turns_[0], turns_[1]);
+}
+
+double PhaseAdvance::stretch(const Phase& phase, const Filament& c, double from, double to) const {
+  // Gauss and Legendre, five places.
+  constexpr std::array<std::array<double, 2>, 5> kPlaces = {{{0.046910077030668, 0.118463442528095},
+                                                             {0.230765344947158, 0.239314335249683},
+                                                             {0.5, 0.284444444444444},
+                                                             {0.769234655052842, 0.239314335249683},
+                                                             {0.953089922969332, 0.118463442528095}}};
+  double sum = 0;
+  for (const auto& [place, weight] : kPlaces)
+    sum += weight * (to - from) * model_.at(flow(phase, c, from + place * (to - from)));
+  return sum;
 }
 
 PhaseAdvance::Sum PhaseAdvance::at(const Phase& phase, const Filament& c, double t) const {
@@ -85,13 +134,12 @@ PhaseAdvance::Sum PhaseAdvance::at(const Phase& phase, const Filament& c, double
                 : sum.x1 * t;
     return sum;
   }
-  // Gauss and Legendre, five places.
-  constexpr std::array<std::array<double, 2>, 5> kPlaces = {{{0.046910077030668, 0.118463442528095},
-                                                             {0.230765344947158, 0.239314335249683},
-                                                             {0.5, 0.284444444444444},
-                                                             {0.769234655052842, 0.239314335249683},
-                                                             {0.953089922969332, 0.118463442528095}}};
-  for (const auto& [place, weight] : kPlaces) sum.x += weight * t * model_.at(flow(phase, c, place * t));
+  double from = 0;
+  for (int i = 0; i < turn_count_ && turns_[static_cast<std::size_t>(i)] < t; ++i) {
+    sum.x += stretch(phase, c, from, turns_[static_cast<std::size_t>(i)]);
+    from = turns_[static_cast<std::size_t>(i)];
+  }
+  sum.x += stretch(phase, c, from, t);
   return sum;
 }
 

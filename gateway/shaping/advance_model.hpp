@@ -33,6 +33,7 @@ struct AdvanceModel {
   /// a window w accelerates by at most 2 K a / w, where the tool brakes and speeds up within it, and the
   /// melt's term by 4 K T a / w^2.
   double most_gain() const { return 1 + steepest_s() / smooth_s * (2 + 4 * melt_s / smooth_s); }
+  double most_bend_s2_per_mm() const;  ///< the greatest |d2A/dv2|
   friend bool operator==(const AdvanceModel&, const AdvanceModel&) = default;
 };
 
@@ -72,8 +73,13 @@ class PhaseAdvance {
  private:
   enum class Way : std::uint8_t { kNothing, kProportional, kNumeric };
   static double flow(const Phase& phase, const Filament& filament, double t);
+  /// The integral of A from one place where filament turns about, or the start, to the next.
+  double stretch(const Phase& phase, const Filament& filament, double from, double to) const;
+  void find_turns(const Phase& phase, const Filament& filament);
   AdvanceModel model_;
   Way way_ = Way::kNothing;
+  std::array<double, 2> turns_{};  ///< where filament turns about, s after the start
+  int turn_count_ = 0;
 };
 
 }  // namespace kinebus

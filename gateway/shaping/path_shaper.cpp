@@ -348,6 +348,7 @@ bool PathShaper::next(Phase& out) {
   if (curved) h /= std::ceil(h / kLongestCurved_s);
   for (;;) {
     Knot end = evaluate(now_s_ + h);
+    if (!along_tip_) end.x[kE] += offset_;
     const double plain = end.x[kE];
     const double from = knot_.flow.rate(), to = end.flow.rate();
     const double fed = along_tip_ ? follow_tip(h, end) : 0, mean = fed / h;

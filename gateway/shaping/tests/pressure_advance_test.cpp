@@ -15,7 +15,8 @@ namespace {
 
 using probe::Job;
 
-constexpr FilamentLimits kFilament{40, 2000, 200, true};
+constexpr FilamentLimits kFilament{
+    .speed_mm_per_s = 40, .accel_mm_per_s2 = 2000, .flow_accel_mm_per_s2 = 200, .rests = true};
 
 struct Planned {
   std::vector<Phase> phases;
