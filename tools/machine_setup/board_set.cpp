@@ -57,6 +57,7 @@ void add_ebb_heat(BoardPlan& plan) {
       {"EBB", facts_of("heat"), kEbb, 1, "kinebus-ebb-g0b1-heat", facts_of("stm32g0b1_ebb")});
   plan.heat_nodes.push_back({kEbb, 1, 0, 2, "EBB"});
   plan.hotend = {kEbb, 1, "heater and TH0 of the EBB"};
+  plan.hotend_amplifier = true;
   plan.hotend_fan = {kEbb, 1, "FAN1 of the EBB"};
   plan.part_fan = {kEbb, 2, "FAN2 of the EBB"};
 }

@@ -59,6 +59,8 @@ struct BoardPlan {
   std::vector<MotorPlace> motors;  ///< of the machine's joints, in their order
   std::vector<HeatNodePlace> heat_nodes;
   std::optional<DeviceConnector> hotend, bed;  ///< heaters with their sensors; none: no board has one
+  /// The hot end's board measures a Pt100 or Pt1000 by a MAX31865, where it was bought with one.
+  bool hotend_amplifier = false;
   std::optional<DeviceConnector> hotend_fan, part_fan;
   DeviceConnector probe;  ///< channel: the switch input
 };

@@ -5,7 +5,10 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gateway/description/machine_description.hpp"
@@ -42,16 +45,22 @@ struct SetupState {
   void save() const;
   /// The step was done with this joint or device already ("motor.tower1"). Says so.
   bool done(const std::string& key, const std::string& what) const;
+  /// An answer that is kept: asked for once, and shown afterwards.
+  std::size_t kept_choice(const std::string& key, std::string_view question,
+                          std::span<const SetupChoice> choices, std::optional<std::size_t> usual = {});
+  bool kept_yes(const std::string& key, std::string_view question, bool usual);
   /// "MOTOR3 of the Octopus (node 2, axis B)"
   std::string connector_of(const JointDescription& joint) const;
 };
 
 // The steps, in their order. All may throw SetupInterrupted and CardError; whatever they gave power to is off
 // when they end, in whatever way.
+void ask_for_sensors(SetupState& state);
 void give_ids(SetupState& state);
 void offer_programs(SetupState& state);
 void test_motors(SetupState& state);
 void test_switches(SetupState& state);
+void test_sensors(SetupState& state);
 void test_heat(SetupState& state);
 
 }  // namespace kinebus

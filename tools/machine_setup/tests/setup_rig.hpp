@@ -57,8 +57,11 @@ class SetupRig {
     board.node = std::make_unique<LoneNode>(board.options, now_);
     boards.push_back(std::move(board));
   }
-  void add_heat(std::uint8_t node_id) {
-    heat = std::make_unique<heat::HeatNode>(heat::HeatNodeOptions{.node_id = node_id, .serial = 77}, now_);
+  void add_heat(std::uint8_t node_id, bool max31865 = true) {
+    heat = std::make_unique<heat::HeatNode>(
+        heat::HeatNodeOptions{
+            .node_id = node_id, .serial = 77, .max31865 = max31865 ? std::uint8_t{1} : std::uint8_t{0}},
+        now_);
   }
 
   SetupHost host() {
@@ -118,6 +121,7 @@ class SetupRig {
   std::map<std::string, std::deque<Press>> presses;  ///< by the joint's name, or "Probe"
   bool is_octopus = false;  ///< its nodes see the same stops, each from its own on, and the same probe
   std::function<bool()> interrupted;
+  std::function<void(std::string_view)> on_question;  ///< what happens at the boards meanwhile
   std::string said;
   std::vector<std::pair<std::string, std::vector<std::uint8_t>>> flashed;
   int questions = 0, most_questions = 500;
@@ -125,6 +129,7 @@ class SetupRig {
  private:
   std::optional<std::string> answer() {
     const std::string question = std::exchange(question_, {});
+    if (on_question) on_question(question);
     if (++questions > most_questions) return std::nullopt;
     if (question.find("What moved first?") != std::string::npos) return look();
     if (question.find("Which joint moved?") != std::string::npos) return moved_;
