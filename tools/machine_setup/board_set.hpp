@@ -31,8 +31,9 @@ struct BoardRole {
   std::string name;                  ///< "Octopus", "card 2"
   const BoardFacts* kind = nullptr;  ///< what its first node is
   std::uint8_t first_id = 1;
-  std::uint8_t ids = 1;  ///< nodes on it, with ids in a row
-  std::string program;   ///< its image, without .bin
+  std::uint8_t ids = 1;       ///< nodes on it, with ids in a row
+  std::string program;        ///< its image, without .bin
+  bool has_versions = false;  ///< boards v1.1 have other pins, and an image of their own: -v1.1
   /// What the same board is with its other program, whose change wants to be told of; nullptr: it has none.
   const BoardFacts* otherwise = nullptr;
 };

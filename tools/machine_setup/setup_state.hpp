@@ -15,6 +15,7 @@
 #include "tools/machine_setup/dialogue.hpp"
 #include "tools/machine_setup/first_machine.hpp"
 #include "tools/machine_setup/setup_answers.hpp"
+#include "tools/machine_setup/usb_boards.hpp"
 #include "tools/node_id/node_ids.hpp"
 
 namespace kinebus {
@@ -28,8 +29,12 @@ struct SetupHost {
   Dialogue::Io io;
   /// Somebody wants to end it: asked while something has power.
   std::function<bool()> interrupted;
-  /// Writes the program into these nodes. False: it was told why not.
-  std::function<bool(const std::string& image, const std::vector<std::uint8_t>& nodes)> flash;
+  /// Writes the program into these nodes; `other_kind`: whatever kind of node each was before. False: it was
+  /// told why not.
+  std::function<bool(const std::string& image, const std::vector<std::uint8_t>& nodes, bool other_kind)>
+      flash;
+  std::function<UsbBoards()> usb;
+  std::filesystem::path programs{};  ///< a folder that may have their images
 };
 
 struct SetupState {

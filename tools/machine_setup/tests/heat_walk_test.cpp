@@ -107,17 +107,6 @@ TEST_F(OctopusAndEbbHeat, AllMotorsAreTheOctopusAndTheHotEndIsTheEbbs) {
   EXPECT_EQ(rig.heat->nmt_state(), NmtState::kPreOperational) << "as the gateway expects it, before its SYNC";
 }
 
-TEST_F(OctopusAndEbbHeat, AnEbbWithTheProgramOfAnAxisIsTold) {
-  rig.add_board(Stm32g0b1EbbBoard::kFacts, 950, 40);
-  rig.answers["Look again?"] = {"n"};
-  EXPECT_EQ(rig.walk(), 1);
-  EXPECT_NE(
-      rig.said.find("(serial number 950, node 40) answers. If that is the EBB, it wants the program for this "
-                    "use: kinebus-flash -i can0 --node 40 --force kinebus-ebb-g0b1-heat.bin"),
-      std::string::npos)
-      << rig.said;
-}
-
 TEST(AnOctopus, IsOneBoardWithItsNodesIdsInARow) {
   SetupRig rig;
   rig.is_octopus = true;

@@ -18,6 +18,8 @@
 #include "node_firmware/heat/heat_node.hpp"
 #include "node_firmware/port/host/heat_plant.hpp"
 #include "protocol/canopen/boards/all.hpp"
+#include "tools/flash/program_update.hpp"
+#include "tools/machine_setup/tests/flash_board.hpp"
 #include "tools/machine_setup/walk.hpp"
 
 namespace kinebus {
@@ -72,10 +74,12 @@ class SetupRig {
                    .print = [this](std::string_view words) { said.append(words), question_.append(words); }},
             .interrupted = [this] { return interrupted && interrupted(); },
             .flash =
-                [this](const std::string& image, const std::vector<std::uint8_t>& nodes) {
+                [this](const std::string& image, const std::vector<std::uint8_t>& nodes, bool other_kind) {
                   flashed.emplace_back(image, nodes);
-                  return true;
-                }};
+                  return ebbs.empty() || write_program(image, nodes, other_kind);
+                },
+            .usb = {},
+            .programs = programs};
   }
   int walk(const std::string& name = "machine.toml", bool anew = false) {
     SetupHost world = host();
@@ -104,7 +108,20 @@ class SetupRig {
     return true;
   }
 
+  /// A file for --programs, beside the machine file.
+  void add_program(const std::string& name, const std::vector<std::uint8_t>& image) {
+    programs = folder_;
+    std::ofstream(folder_ / name, std::ios::binary)
+        .write(reinterpret_cast<const char*>(image.data()), static_cast<std::streamsize>(image.size()));
+  }
+  FlashBoard& add_ebb(std::uint32_t serial) {
+    return *ebbs.emplace_back(std::make_unique<FlashBoard>(serial, now_));
+  }
+  LocalTime now() const { return now_; }
+
   std::vector<AxisBoard> boards;
+  std::vector<std::unique_ptr<FlashBoard>> ebbs;
+  std::filesystem::path programs;
   std::unique_ptr<heat::HeatNode> heat;
   heat::HeatPlant plant;
   std::map<Socket, Wire> wires;
@@ -187,7 +204,28 @@ class SetupRig {
     }
   }
 
+  /// As kinebus-flash does.
+  bool write_program(const std::string& file, const std::vector<std::uint8_t>& nodes, bool other_kind) {
+    std::ifstream in(file, std::ios::binary);
+    const std::vector<std::uint8_t> image{std::istreambuf_iterator<char>(in), {}};
+    bool good = true;
+    for (const std::uint8_t node : nodes) {
+      ProgramUpdate work(node, image, now_, {.answer = std::chrono::seconds{1}, .other_kind = other_kind});
+      while (work.status() == ProgramUpdate::Status::kBusy) {
+        while (const auto frame = work.next_frame()) tell_all(*frame, nullptr, false);
+        if (const auto frame = receive(std::min(work.next_deadline(), now_ + std::chrono::milliseconds{1})))
+          work.on_frame(now_, *frame);
+        work.on_time(now_);
+      }
+      said += "node " + std::to_string(node) + ": " + work.message() + "\n";
+      good = good && work.status() == ProgramUpdate::Status::kDone;
+    }
+    return good;
+  }
+
   void tell_all(const CanFrame& frame, const Node* but, bool from_heat) {
+    for (const auto& ebb : ebbs)
+      if (ebb.get() != speaking_) ebb->on_frame(now_, frame);
     for (AxisBoard& board : boards)
       if (board.node.get() != but) board.node->on_frame(now_, frame);
     if (heat && !from_heat) heat->on_frame(now_, frame);
@@ -212,6 +250,7 @@ class SetupRig {
         if (first == 0 && std::abs(at) > 100) first = at;
       }
     }
+    for (const auto& ebb : ebbs) ebb->on_time(now_);
     if (!heat) return;
     for (; sampled_ <= now_; sampled_ += heat::HeatPlant::kPeriod) plant.step(*heat, sampled_);
     heat->on_time(now_);
@@ -223,6 +262,14 @@ class SetupRig {
       for (AxisBoard& board : boards)
         if (const auto frame = board.node->next_frame()) {
           tell_all(*frame, board.node.get(), false);
+          now_ += std::chrono::microseconds{130};
+          return frame;
+        }
+      for (const auto& ebb : ebbs)
+        if (const auto frame = ebb->next_frame(now_)) {
+          speaking_ = ebb.get();
+          tell_all(*frame, nullptr, false);
+          speaking_ = nullptr;
           now_ += std::chrono::microseconds{130};
           return frame;
         }
@@ -238,6 +285,7 @@ class SetupRig {
 
   std::filesystem::path folder_;
   LocalTime now_{std::chrono::seconds{1}}, sampled_{std::chrono::seconds{1}}, press_at_{0};
+  const FlashBoard* speaking_ = nullptr;
   std::optional<Press> press_;
   std::string question_, asked_, moved_;
 };
