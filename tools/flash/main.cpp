@@ -8,20 +8,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <set>
 #include <stdexcept>
 #include <vector>
 
 #include "node_firmware/boot/boot_loader.hpp"
-#include "node_firmware/boot/image_header.hpp"
 #include "protocol/host/guarded_main.hpp"
 #include "protocol/host/patient_can.hpp"
 #include "protocol/host/socketcan.hpp"
 #include "protocol/host/usage.hpp"
 #include "tools/flash/console_request.hpp"
+#include "tools/flash/program_file.hpp"
 #include "tools/flash/program_update.hpp"
 #include "tools/node_id/node_ids.hpp"
 
@@ -171,13 +169,8 @@ int flash(const Arguments& arguments) {
   if (arguments.swd)
     return hand_over({"openocd", "-f", "interface/stlink.cfg", "-f", "target/stm32f4x.cfg", "-c",
                       fmt::format("program {} 0x08020000 verify reset exit", arguments.image)});
-  std::ifstream file(arguments.image, std::ios::binary);
-  const std::vector<std::uint8_t> image{std::istreambuf_iterator<char>(file), {}};
-  if (!file && image.empty()) return fmt::print(stderr, "cannot read {}\n", arguments.image), 1;
-  if (const ImageCheck check = check_any_image(image); check != ImageCheck::kGood) {
-    ProgramUpdate refused(1, image, LocalTime{0}, {});
-    return fmt::print(stderr, "{}: {}\n", arguments.image, refused.message()), 1;
-  }
+  const ProgramFile program = read_program_file(arguments.image);
+  if (!program.trouble.empty()) return fmt::print(stderr, "{}\n", program.trouble), 1;
   if (!confirmed(arguments)) return fmt::print(stderr, "not confirmed: nothing was done\n"), 1;
   SocketCan can;
   if (const std::string error = can.open(arguments.interface, false); !error.empty())
@@ -188,7 +181,7 @@ int flash(const Arguments& arguments) {
   nodes = boards_of(can, nodes, answer_time(arguments) / 12);
   int failed = 0;
   // One after another: a bus has room for one download, and the others stay what they are meanwhile.
-  for (const std::uint8_t node : nodes) failed += update(can, node, image, arguments) ? 0 : 1;
+  for (const std::uint8_t node : nodes) failed += update(can, node, program.bytes, arguments) ? 0 : 1;
   if (failed != 0) fmt::print(stderr, "{} of {} boards not updated: run it again\n", failed, nodes.size());
   return failed == 0 ? 0 : 1;
 }

@@ -31,6 +31,12 @@ std::string mismatch(std::uint32_t found, std::uint32_t wanted) {
          " (1018h:2): nothing was written";
 }
 
+}  // namespace
+
+CanFrame end_of_transfer(std::uint8_t node) {
+  return sdo::abort_frame(cob_id::kSdoRequest + node, kProgramData, AbortCode::kGeneral);
+}
+
 std::string what_is_wrong(ImageCheck check) {
   switch (check) {
     case ImageCheck::kNone:
@@ -45,12 +51,6 @@ std::string what_is_wrong(ImageCheck check) {
       break;
   }
   return {};
-}
-
-}  // namespace
-
-CanFrame end_of_transfer(std::uint8_t node) {
-  return sdo::abort_frame(cob_id::kSdoRequest + node, kProgramData, AbortCode::kGeneral);
 }
 
 ImageCheck check_any_image(std::span<const std::uint8_t> image) {

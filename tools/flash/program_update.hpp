@@ -20,6 +20,8 @@ CanFrame end_of_transfer(std::uint8_t node);
 
 /// Whether it is a whole image, for one of the boards that there are.
 ImageCheck check_any_image(std::span<const std::uint8_t> image);
+/// In words for the user; empty: nothing.
+std::string what_is_wrong(ImageCheck check);
 
 class ProgramUpdate {
  public:

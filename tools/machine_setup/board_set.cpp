@@ -45,7 +45,8 @@ void add_octopus(BoardPlan& plan, std::size_t motors) {
 }
 
 void add_ebb_axis(BoardPlan& plan) {
-  plan.roles.push_back({"EBB", facts_of("stm32g0b1_ebb"), kEbb, 1, "kinebus-ebb-g0b1", facts_of("heat")});
+  plan.roles.push_back(
+      {"EBB", facts_of("stm32g0b1_ebb"), kEbb, 1, "kinebus-ebb-g0b1", true, facts_of("heat")});
   plan.motors.push_back({kEbb, 0, "the extruder's driver of the EBB", "PROBE of the EBB"});
   // That image has no heat node: the hot end and its fans are the Octopus'.
   plan.probe = {kEbb, 1, "PROBE of the EBB"};
@@ -54,9 +55,10 @@ void add_ebb_axis(BoardPlan& plan) {
 /// Hot end and fans at the tool head; the Octopus keeps the motors, the bed and the probe.
 void add_ebb_heat(BoardPlan& plan) {
   plan.roles.push_back(
-      {"EBB", facts_of("heat"), kEbb, 1, "kinebus-ebb-g0b1-heat", facts_of("stm32g0b1_ebb")});
+      {"EBB", facts_of("heat"), kEbb, 1, "kinebus-ebb-g0b1-heat", true, facts_of("stm32g0b1_ebb")});
   plan.heat_nodes.push_back({kEbb, 1, 0, 2, "EBB"});
   plan.hotend = {kEbb, 1, "heater and TH0 of the EBB"};
+  plan.hotend_amplifier = true;
   plan.hotend_fan = {kEbb, 1, "FAN1 of the EBB"};
   plan.part_fan = {kEbb, 2, "FAN2 of the EBB"};
 }

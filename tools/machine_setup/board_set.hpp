@@ -31,8 +31,9 @@ struct BoardRole {
   std::string name;                  ///< "Octopus", "card 2"
   const BoardFacts* kind = nullptr;  ///< what its first node is
   std::uint8_t first_id = 1;
-  std::uint8_t ids = 1;  ///< nodes on it, with ids in a row
-  std::string program;   ///< its image, without .bin
+  std::uint8_t ids = 1;       ///< nodes on it, with ids in a row
+  std::string program;        ///< its image, without .bin
+  bool has_versions = false;  ///< boards v1.1 have other pins, and an image of their own: -v1.1
   /// What the same board is with its other program, whose change wants to be told of; nullptr: it has none.
   const BoardFacts* otherwise = nullptr;
 };
@@ -59,6 +60,8 @@ struct BoardPlan {
   std::vector<MotorPlace> motors;  ///< of the machine's joints, in their order
   std::vector<HeatNodePlace> heat_nodes;
   std::optional<DeviceConnector> hotend, bed;  ///< heaters with their sensors; none: no board has one
+  /// The hot end's board measures a Pt100 or Pt1000 by a MAX31865, where it was bought with one.
+  bool hotend_amplifier = false;
   std::optional<DeviceConnector> hotend_fan, part_fan;
   DeviceConnector probe;  ///< channel: the switch input
 };

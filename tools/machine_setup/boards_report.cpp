@@ -6,6 +6,28 @@
 
 namespace kinebus {
 
+std::string as_line(const BusBoard& one) {
+  const std::string id = one.board.node_id != 0 ? fmt::format("node {}", one.board.node_id) : "no id";
+  return fmt::format(
+      "  {:<8} {:<20} serial number {:<11} {}\n", id, words_of(one.function), one.board.serial(),
+      one.kind != nullptr
+          ? one.kind->device_name
+          : fmt::format("vendor {:08X}h, product {:08X}h", one.board.identity[0], one.board.identity[1]));
+}
+
+std::string as_lines(const UsbBoards& usb) {
+  std::string text = "On USB:\n";
+  if (!usb.trouble.empty()) text += fmt::format("  {}\n", usb.trouble);
+  if (usb.trouble.empty() && usb.boards.empty()) text += "  no adapter and no board\n";
+  for (const UsbBoard& one : usb.boards) {
+    text += fmt::format("  bus {} device {:<3} {:04x}:{:04x} {}{}{}\n", one.bus, one.address, one.vendor,
+                        one.product, words_of(one.kind), one.name.empty() ? "" : ": " + one.name,
+                        one.serial.empty() ? "" : ", serial number " + one.serial);
+    if (const std::string advice = usb_advice(one); !advice.empty()) text += fmt::format("  ! {}\n", advice);
+  }
+  return text;
+}
+
 std::string as_text(const BoardsReport& report) {
   std::string text = fmt::format("On {}:\n", report.interface);
   if (!report.bus_trouble.empty()) text += fmt::format("  {}\n", report.bus_trouble);
@@ -14,24 +36,9 @@ std::string as_text(const BoardsReport& report) {
     text +=
         "  no board answers: has it power, are both ends of the bus terminated, CAN high and low not "
         "exchanged?\n";
-  for (const BusBoard& one : report.bus) {
-    const std::string id = one.board.node_id != 0 ? fmt::format("node {}", one.board.node_id) : "no id";
-    text += fmt::format(
-        "  {:<8} {:<20} serial number {:<11} {}\n", id, words_of(one.function), one.board.serial(),
-        one.kind != nullptr
-            ? one.kind->device_name
-            : fmt::format("vendor {:08X}h, product {:08X}h", one.board.identity[0], one.board.identity[1]));
-  }
+  for (const BusBoard& one : report.bus) text += as_line(one);
   for (const std::string& trouble : board_troubles(report.bus)) text += fmt::format("  ! {}\n", trouble);
-  text += "On USB:\n";
-  if (!report.usb.trouble.empty()) text += fmt::format("  {}\n", report.usb.trouble);
-  if (report.usb.trouble.empty() && report.usb.boards.empty()) text += "  no adapter and no board\n";
-  for (const UsbBoard& one : report.usb.boards) {
-    text += fmt::format("  bus {} device {:<3} {:04x}:{:04x} {}{}{}\n", one.bus, one.address, one.vendor,
-                        one.product, words_of(one.kind), one.name.empty() ? "" : ": " + one.name,
-                        one.serial.empty() ? "" : ", serial number " + one.serial);
-    if (const std::string advice = usb_advice(one); !advice.empty()) text += fmt::format("  ! {}\n", advice);
-  }
+  text += as_lines(report.usb);
   return text;
 }
 

@@ -17,6 +17,9 @@ struct BoardsReport {
   UsbBoards usb{};
 };
 
+/// A line each, and what to do with one on USB.
+std::string as_line(const BusBoard& board);
+std::string as_lines(const UsbBoards& usb);
 std::string as_text(const BoardsReport& report);
 /// One JSON object, indented.
 std::string as_json(const BoardsReport& report);

@@ -78,7 +78,7 @@ void connect_heat(MachineDescription& d, const FirstMachine& first, const BoardP
     const auto& connector = hotend ? plan.hotend : plan.bed;
     if (!connector) continue;
     heater.place = at(*connector);
-    heater.wiring.sensor.element = hotend ? first.hotend_sensor : first.bed_sensor;
+    heater.wiring.sensor = hotend ? first.hotend_sensor : first.bed_sensor;
     heater.wiring.fan_channel =
         hotend && plan.hotend_fan && plan.hotend_fan->node == connector->node ? plan.hotend_fan->channel : 0;
     heater.wiring.fan_pulses = 0;
@@ -94,7 +94,10 @@ std::size_t joints_of(SetupMachine machine) {
 }
 
 BoardPlan plan_of(const FirstMachine& first) {
-  return plan_boards(first.boards, joints_of(first.machine), first.heat_node);
+  BoardPlan plan = plan_boards(first.boards, joints_of(first.machine), first.heat_node);
+  if (plan.hotend && plan.hotend_amplifier && first.hotend_sensor.max31865)
+    plan.hotend->connector = "heater and MAX31865 of the EBB";
+  return plan;
 }
 
 void connect_switches(MachineDescription& d) {
@@ -128,6 +131,7 @@ MachineDescription make_description(const FirstMachine& first) {
   }
   connect_switches(d);
   connect_heat(d, first, plan);
+  d.thermal.mains_hz = first.mains_hz;
   if (first.probe) {
     d.probe.present = true;
     d.probe.place = at(plan.probe);

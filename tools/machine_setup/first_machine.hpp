@@ -13,7 +13,8 @@ struct FirstMachine {
   SetupMachine machine = SetupMachine::kM1;
   BoardSet boards = BoardSet::kOctopus;
   std::uint8_t heat_node = 0;  ///< as plan_boards()
-  SensorElement hotend_sensor = SensorElement::kGeneric3950, bed_sensor = SensorElement::kGeneric3950;
+  SensorWiring hotend_sensor{}, bed_sensor{};
+  int mains_hz = 50;
   bool probe = false;
   std::string interface = "can0";
 };

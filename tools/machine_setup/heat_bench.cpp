@@ -49,6 +49,18 @@ std::optional<double> HeatBench::temperature_c(int sensor) {
   return static_cast<double>(read(heat_object::kInputI16, sensor)) / 10;
 }
 
+std::string HeatBench::sensor_trouble(int sensor, const SensorWiring& wiring) {
+  constexpr std::int64_t kAbove = 2, kBelow = 4;  // 6150h, besides "not valid"; a thermistor's ohms fall
+  const auto status = read(heat_object::kInputStatus, sensor);
+  if (status == 0) return "";
+  if ((status & (wiring.is_thermistor() ? kBelow : kAbove)) != 0)
+    return "nothing is plugged in there, a wire is broken, or another kind of sensor is plugged in";
+  if ((status & (kAbove | kBelow)) != 0)
+    return "its wires touch each other or ground, or another kind of sensor is plugged in";
+  return wiring.max31865 ? "its amplifier does not answer: has this board one, a chip MAX31865?"
+                         : "what it says cannot be true: is its plug loose?";
+}
+
 HeatBench::Rise HeatBench::warm(int heater, const Limits& limits, const std::function<bool()>& stop) {
   std::array<std::optional<double>, kHeatSensors> begin;
   for (int i = 0; i < kHeatSensors; ++i) begin[static_cast<std::size_t>(i)] = temperature_c(i);
@@ -59,6 +71,8 @@ HeatBench::Rise HeatBench::warm(int heater, const Limits& limits, const std::fun
     return rise.trouble = fmt::format("it is at {:.1f} C: let it cool below {:.0f} C first", *begin[own],
                                       limits.warmest_begin_c),
            rise;
+  // A fault stays until somebody has looked: who asks for another try has.
+  if (read(heat_object::kHeaterFault, heater) != 0) write(heat_object::kFaultReset, heater, 1);
   write(heat_object::kSetPoint, heater, std::llround(10 * (*begin[own] + limits.rise_k)));
   for (const LocalTime end = node_.now() + limits.time; node_.now() < end;) {
     node_.pause(kLook);

@@ -36,6 +36,8 @@ class HeatBench {
   void describe(const MachineDescription& machine, bool fans_free);
   /// 0.1 C resolution; nullopt: its sensor does not measure.
   std::optional<double> temperature_c(int sensor);
+  /// Why it does not; empty: it does.
+  std::string sensor_trouble(int sensor, const SensorWiring& wiring);
   /// Heats one (0 ..) until its sensor has risen, then lets go. `stop`: asked all the time.
   Rise warm(int heater, const Limits& limits, const std::function<bool()>& stop);
   /// Full speed, or stands.

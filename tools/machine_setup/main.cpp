@@ -90,12 +90,14 @@ std::optional<std::string> read_line() {
 }
 
 /// kinebus-flash, that beside this program or that in PATH.
-bool flash(const std::string& interface, const std::string& image, const std::vector<std::uint8_t>& nodes) {
+bool flash(const std::string& interface, const std::string& image, const std::vector<std::uint8_t>& nodes,
+           bool other_kind) {
   std::error_code code;
   const auto beside = std::filesystem::read_symlink("/proc/self/exe", code).parent_path() / "kinebus-flash";
   std::vector<std::string> words{std::filesystem::exists(beside, code) ? beside.string() : "kinebus-flash",
                                  image, "-i", interface};
   for (const std::uint8_t node : nodes) words.insert(words.end(), {"-n", std::to_string(node)});
+  if (other_kind) words.emplace_back("--force");
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
@@ -112,7 +114,7 @@ bool flash(const std::string& interface, const std::string& image, const std::ve
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-int walk_through(const WalkOptions& options) {
+int walk_through(const WalkOptions& options, const std::string& programs) {
   SocketCan can;
   std::vector<std::string> advices;
   if (const std::string trouble = open_bus(can, options.interface, advices); !trouble.empty())
@@ -128,10 +130,10 @@ int walk_through(const WalkOptions& options) {
                               std::fflush(stdout);
                             }},
                  .interrupted = [] { return interrupted != 0; },
-                 .flash =
-                     [&](const std::string& image, const std::vector<std::uint8_t>& nodes) {
-                       return flash(options.interface, image, nodes);
-                     }};
+                 .flash = [&](const std::string& image, const std::vector<std::uint8_t>& nodes,
+                              bool other_kind) { return flash(options.interface, image, nodes, other_kind); },
+                 .usb = find_usb_boards,
+                 .programs = programs};
   return walk(host, options);
 }
 
@@ -166,8 +168,10 @@ int run(int argc, char** argv) {
   boards->add_flag("--json", json, "As JSON");
   auto* walk_command =
       app.add_subcommand("walk", "Questions and answers, from boards as they come to a tested machine file");
-  std::string file = "machine.toml", machine = "m1", set = "octopus+ebb";
+  std::string file = "machine.toml", programs = ".", machine = "m1", set = "octopus+ebb";
   walk_command->add_option("-f,--file", file, "The machine file that is written; answers are kept beside it")
+      ->capture_default_str();
+  walk_command->add_option("--programs", programs, "The folder that has the boards' programs, kinebus-*.bin")
       ->capture_default_str();
   walk_command->add_flag("--anew", options.anew, "Forget the answers of an earlier time");
   FirstMachine first;
@@ -185,7 +189,7 @@ int run(int argc, char** argv) {
   add_shell_words(app, KINEBUS_VERSION);
   if (const auto end = parse_arguments(app, argc, argv)) return *end;
   if (*boards) return list_boards(options.interface, json);
-  if (*walk_command) return options.file = file, walk_through(options);
+  if (*walk_command) return options.file = file, walk_through(options, programs);
   if (*file_command) {
     first.machine = chosen<SetupMachine>(setup_machines(), machine);
     first.boards = chosen<BoardSet>(board_sets(), set);

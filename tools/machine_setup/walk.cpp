@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "gateway/description/device_schema.hpp"
 #include "gateway/description/machine_file.hpp"
 #include "tools/card/node_sdo.hpp"
 #include "tools/machine_setup/demo_print.hpp"
@@ -16,42 +15,10 @@ namespace {
 
 constexpr int kInterrupted = 130;
 
-/// A choice that is kept: asked once, and shown afterwards.
-std::size_t kept_choice(SetupState& s, const std::string& key, std::string_view question,
-                        std::span<const SetupChoice> choices, std::optional<std::size_t> usual = {}) {
-  if (const auto known = s.answers.get(key))
-    for (std::size_t i = 0; i < choices.size(); ++i)
-      if (choices[i].word == *known) return s.dialogue.say(fmt::format("{}: {}", key, *known)), i;
-  const std::size_t chosen = s.dialogue.choose(key, question, choices, usual);
-  s.answers.set(key, std::string(choices[chosen].word));
-  return chosen;
-}
-
-SensorElement sensor_of(SetupState& s, const std::string& key, std::string_view what) {
-  std::vector<SetupChoice> choices;
-  std::size_t usual = 0;
-  for (const machine_schema::Choice& choice : machine_schema::kSensorElements) {
-    if (choice.value == static_cast<int>(SensorElement::kGeneric3950)) usual = choices.size();
-    choices.push_back({choice.word, ""});
-  }
-  const std::size_t chosen =
-      kept_choice(s, key, fmt::format("What does the {} measure with?", what), choices, usual);
-  return static_cast<SensorElement>(machine_schema::kSensorElements[chosen].value);
-}
-
-bool kept_yes(SetupState& s, const std::string& key, std::string_view question, bool usual) {
-  if (const auto known = s.answers.get(key))
-    return s.dialogue.say(fmt::format("{}: {}", key, *known)), *known == "yes";
-  const bool yes = s.dialogue.yes(key, question, usual);
-  s.answers.set(key, yes ? "yes" : "no");
-  return yes;
-}
-
 void ask_for_machine(SetupState& s) {
   s.first.machine =
-      static_cast<SetupMachine>(kept_choice(s, "machine", "Which machine is it?", setup_machines()));
-  s.first.boards =
-      static_cast<BoardSet>(kept_choice(s, "boards", "Which boards does it have?", board_sets()));
+      static_cast<SetupMachine>(s.kept_choice("machine", "Which machine is it?", setup_machines()));
+  s.first.boards = static_cast<BoardSet>(s.kept_choice("boards", "Which boards does it have?", board_sets()));
   for (const BoardRole& role : plan_of(s.first).roles)
     if (role.kind == nullptr)
       throw std::runtime_error(fmt::format("boards: this release has no program for the {}", role.name));
@@ -69,11 +36,8 @@ void ask_for_machine(SetupState& s) {
             fmt::format("heat_node: found {}; expected an id that no card has", s.first.heat_node));
     s.answers.set("heat_node", std::to_string(s.first.heat_node));
   }
-  if (!plan_of(s.first).heat_nodes.empty()) {
-    s.first.hotend_sensor = sensor_of(s, "hotend_sensor", "hot end");
-    s.first.bed_sensor = sensor_of(s, "bed_sensor", "bed");
-  }
-  s.first.probe = kept_yes(s, "probe", "Is there a probe that touches the bed?", false);
+  ask_for_sensors(s);
+  s.first.probe = s.kept_yes("probe", "Is there a probe that touches the bed?", false);
 }
 
 /// Made anew, or as an earlier, interrupted set-up has left it. The boards' serial numbers are in it: the
@@ -89,6 +53,9 @@ void begin_file(SetupState& s) {
     auto machine = load_machine(s.file);
     if (!machine) throw std::runtime_error(to_string(machine.error()));
     s.machine = std::move(*machine);
+    for (const HeaterDescription& heater : s.machine.heaters)
+      (heater.kind == HeaterKind::kHotend ? s.first.hotend_sensor : s.first.bed_sensor) =
+          heater.wiring.sensor;
     s.dialogue.say(fmt::format("Going on with {}.", s.file.string()));
   } else {
     s.machine = make_description(s.first);
@@ -136,6 +103,7 @@ int run_steps(SetupState& s) {
   begin_file(s);
   test_motors(s);
   test_switches(s);
+  test_sensors(s);
   test_heat(s);
   if (!check_file(s)) return 1;
   s.answers.set("finished", "yes");
@@ -157,6 +125,24 @@ bool SetupState::done(const std::string& key, const std::string& what) const {
   if (!known || *known == kSkipped) return false;
   dialogue.say(fmt::format("{}: {}", what, *known));
   return true;
+}
+
+std::size_t SetupState::kept_choice(const std::string& key, std::string_view question,
+                                    std::span<const SetupChoice> choices, std::optional<std::size_t> usual) {
+  if (const auto known = answers.get(key))
+    for (std::size_t i = 0; i < choices.size(); ++i)
+      if (choices[i].word == *known) return dialogue.say(fmt::format("{}: {}", key, *known)), i;
+  const std::size_t chosen = dialogue.choose(key, question, choices, usual);
+  answers.set(key, std::string(choices[chosen].word));
+  return chosen;
+}
+
+bool SetupState::kept_yes(const std::string& key, std::string_view question, bool usual) {
+  if (const auto known = answers.get(key))
+    return dialogue.say(fmt::format("{}: {}", key, *known)), *known == "yes";
+  const bool yes = dialogue.yes(key, question, usual);
+  answers.set(key, yes ? "yes" : "no");
+  return yes;
 }
 
 std::string SetupState::connector_of(const JointDescription& joint) const {

@@ -164,7 +164,7 @@ std::vector<NodeIds::Board> NodeIds::find() {
 }
 
 /// The board's pending id, stored; all boards wait again afterwards, whatever became of it.
-std::string NodeIds::configure(const Board& board, std::uint8_t node_id) {
+std::string NodeIds::configure(const Board& board, std::uint8_t node_id, bool store) {
   LssMaster master({.timeout = options_.answer, .scan_wait = options_.scan_wait});
   const LocalTime now = bus_.now();
   std::string failed;
@@ -174,7 +174,7 @@ std::string NodeIds::configure(const Board& board, std::uint8_t node_id) {
     const auto status = serve(master);
     failed = words(status, master.error_code());
   }
-  if (failed.empty() && master.store(bus_.now())) {
+  if (store && failed.empty() && master.store(bus_.now())) {
     const auto status = serve(master);
     failed = words(status, master.error_code());
     if (!failed.empty() && master.error_code() == kStoreRefused)
@@ -195,12 +195,23 @@ std::string NodeIds::give(const Board& board, std::uint8_t node_id) {
   if (std::string failed = configure(board, node_id); !failed.empty()) return failed;
   // One that had an id takes the new one at its next reset of communication.
   if (board.node_id != 0) bus_.send(nmt_frame(NmtCommand::kResetCommunication, board.node_id));
-  for (const LocalTime end = bus_.now() + options_.boot; bus_.now() < end;) {
-    bus_.receive(std::min(end, bus_.now() + options_.answer));
-    if (read(node_id, {kIdentity, 4}, board.serial())) return {};
-  }
+  if (shows_itself(board, node_id)) return {};
   return fmt::format("the id is stored, but nobody shows itself as node {}: switch the board off and on",
                      node_id);
+}
+
+bool NodeIds::shows_itself(const Board& board, std::uint8_t node_id) {
+  for (const LocalTime end = bus_.now() + options_.boot; bus_.now() < end;) {
+    bus_.receive(std::min(end, bus_.now() + options_.answer));
+    if (read(node_id, {kIdentity, 4}, board.serial())) return true;
+  }
+  return false;
+}
+
+std::string NodeIds::lend(const Board& board, std::uint8_t node_id) {
+  if (std::string failed = configure(board, node_id, false); !failed.empty()) return failed;
+  return shows_itself(board, node_id) ? std::string()
+                                      : fmt::format("nobody shows itself as node {}", node_id);
 }
 
 std::string NodeIds::forget(const Board& board) {

@@ -55,6 +55,11 @@ class NodeIds {
   /// The board keeps the id through power-off and is there with it at once. Empty: done; else what went
   /// wrong.
   std::string give(const Board& board, std::uint8_t node_id);
+  /// A board without an id has this one until it is switched off: nothing is stored, which a boot loader
+  /// could not.
+  std::string lend(const Board& board, std::uint8_t node_id);
+  /// The board keeps the id that it has.
+  std::string keep(const Board& board) { return configure(board, board.node_id); }
   /// The board is without an id from now on.
   std::string forget(const Board& board);
 
@@ -63,7 +68,8 @@ class NodeIds {
   /// `wanted`: answers of another node with the same id do not count.
   std::optional<std::uint32_t> read(std::uint8_t node_id, ObjectAddress address,
                                     std::optional<std::uint32_t> wanted = std::nullopt);
-  std::string configure(const Board& board, std::uint8_t node_id);
+  std::string configure(const Board& board, std::uint8_t node_id, bool store = true);
+  bool shows_itself(const Board& board, std::uint8_t node_id);
 
   BusAccess bus_;
   Options options_;

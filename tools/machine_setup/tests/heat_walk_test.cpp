@@ -4,6 +4,7 @@
 
 #include "gateway/description/machine_file.hpp"
 #include "tools/machine_setup/heat_bench.hpp"
+#include "tools/machine_setup/tests/octopus_ebb_heat.hpp"
 #include "tools/machine_setup/tests/setup_rig.hpp"
 
 namespace kinebus {
@@ -48,6 +49,18 @@ TEST_F(CardsWithHeat, AnOpenSensorIsSaidAndNothingHeats) {
   EXPECT_TRUE(said("hotend: its sensor does not measure: is it plugged in, and whole?")) << rig.said;
 }
 
+TEST_F(CardsWithHeat, ASensorThatWasPluggedInMeanwhileIsGoneOnWith) {
+  ASSERT_EQ(rig.plant.command("sensor 1 open"), "");
+  rig.on_question = [&](std::string_view question) {
+    if (question.find("its sensor does not measure") != std::string_view::npos)
+      static_cast<void>(rig.plant.command("sensor 1 ok"));
+  };
+  ASSERT_EQ(rig.walk(), 0) << rig.said;
+  EXPECT_TRUE(said("hotend: its sensor does not measure")) << rig.said;
+  EXPECT_TRUE(said("Its sensor has risen by")) << rig.said;
+  EXPECT_TRUE(rig.dark());
+}
+
 TEST_F(CardsWithHeat, AHeaterThatIsNotConnectedIsFoundOut) {
   ASSERT_EQ(rig.plant.command("heater 1 open"), "");
   rig.answers["it is warmed by 5 K now"] = {"warm", "warm", "skip"};
@@ -77,27 +90,6 @@ TEST_F(CardsWithHeat, WithoutTheHeatNodeTheRestIsStillDone) {
   EXPECT_TRUE(said("heat: no heat node 20 (heat node) answers")) << rig.said;
 }
 
-// An Octopus whose heat node is not there, an EBB as heat node: the rig's.
-class OctopusAndEbbHeat : public ::testing::Test {
- public:
-  OctopusAndEbbHeat() {
-    for (std::uint8_t i = 0; i < 4; ++i)
-      rig.add_board(Stm32f446OctopusBoard::kFacts, 900U + i, static_cast<std::uint8_t>(1 + i));
-    rig.is_octopus = true;
-    rig.wires = {
-        {{0, 0}, {"X", false}}, {{0, 1}, {"Y", false}}, {{1, 0}, {"Z", false}}, {{1, 1}, {"E", false}}};
-    rig.answers = {{"Which machine", {"cartesian"}},
-                   {"Which boards", {"octopus+ebb-heat"}},
-                   {"Fan part", {"run"}},
-                   {"Did it run?", {"yes"}},
-                   {"Heater bed", {"skip"}},
-                   {"Which one got warm?", {"hotend"}}};
-    rig.presses = {
-        {"Switch of X", {{0, 0, true}}}, {"Switch of Y", {{0, 1, true}}}, {"Switch of Z", {{1, 0, true}}}};
-  }
-  SetupRig rig;
-};
-
 TEST_F(OctopusAndEbbHeat, AllMotorsAreTheOctopusAndTheHotEndIsTheEbbs) {
   rig.add_heat(6);
   ASSERT_EQ(rig.walk(), 0) << rig.said;
@@ -113,17 +105,6 @@ TEST_F(OctopusAndEbbHeat, AllMotorsAreTheOctopusAndTheHotEndIsTheEbbs) {
   EXPECT_EQ(machine->node(6)->serial, 77u);
   EXPECT_TRUE(rig.dark());
   EXPECT_EQ(rig.heat->nmt_state(), NmtState::kPreOperational) << "as the gateway expects it, before its SYNC";
-}
-
-TEST_F(OctopusAndEbbHeat, AnEbbWithTheProgramOfAnAxisIsTold) {
-  rig.add_board(Stm32g0b1EbbBoard::kFacts, 950, 40);
-  rig.answers["Look again?"] = {"n"};
-  EXPECT_EQ(rig.walk(), 1);
-  EXPECT_NE(
-      rig.said.find("(serial number 950, node 40) answers. If that is the EBB, it wants the program for this "
-                    "use: kinebus-flash -i can0 --node 40 --force kinebus-ebb-g0b1-heat.bin"),
-      std::string::npos)
-      << rig.said;
 }
 
 TEST(AnOctopus, IsOneBoardWithItsNodesIdsInARow) {

@@ -18,6 +18,8 @@
 #include "node_firmware/heat/heat_node.hpp"
 #include "node_firmware/port/host/heat_plant.hpp"
 #include "protocol/canopen/boards/all.hpp"
+#include "tools/flash/program_update.hpp"
+#include "tools/machine_setup/tests/flash_board.hpp"
 #include "tools/machine_setup/walk.hpp"
 
 namespace kinebus {
@@ -57,8 +59,11 @@ class SetupRig {
     board.node = std::make_unique<LoneNode>(board.options, now_);
     boards.push_back(std::move(board));
   }
-  void add_heat(std::uint8_t node_id) {
-    heat = std::make_unique<heat::HeatNode>(heat::HeatNodeOptions{.node_id = node_id, .serial = 77}, now_);
+  void add_heat(std::uint8_t node_id, bool max31865 = true) {
+    heat = std::make_unique<heat::HeatNode>(
+        heat::HeatNodeOptions{
+            .node_id = node_id, .serial = 77, .max31865 = max31865 ? std::uint8_t{1} : std::uint8_t{0}},
+        now_);
   }
 
   SetupHost host() {
@@ -69,10 +74,12 @@ class SetupRig {
                    .print = [this](std::string_view words) { said.append(words), question_.append(words); }},
             .interrupted = [this] { return interrupted && interrupted(); },
             .flash =
-                [this](const std::string& image, const std::vector<std::uint8_t>& nodes) {
+                [this](const std::string& image, const std::vector<std::uint8_t>& nodes, bool other_kind) {
                   flashed.emplace_back(image, nodes);
-                  return true;
-                }};
+                  return ebbs.empty() || write_program(image, nodes, other_kind);
+                },
+            .usb = {},
+            .programs = programs};
   }
   int walk(const std::string& name = "machine.toml", bool anew = false) {
     SetupHost world = host();
@@ -101,7 +108,20 @@ class SetupRig {
     return true;
   }
 
+  /// A file for --programs, beside the machine file.
+  void add_program(const std::string& name, const std::vector<std::uint8_t>& image) {
+    programs = folder_;
+    std::ofstream(folder_ / name, std::ios::binary)
+        .write(reinterpret_cast<const char*>(image.data()), static_cast<std::streamsize>(image.size()));
+  }
+  FlashBoard& add_ebb(std::uint32_t serial) {
+    return *ebbs.emplace_back(std::make_unique<FlashBoard>(serial, now_));
+  }
+  LocalTime now() const { return now_; }
+
   std::vector<AxisBoard> boards;
+  std::vector<std::unique_ptr<FlashBoard>> ebbs;
+  std::filesystem::path programs;
   std::unique_ptr<heat::HeatNode> heat;
   heat::HeatPlant plant;
   std::map<Socket, Wire> wires;
@@ -118,6 +138,7 @@ class SetupRig {
   std::map<std::string, std::deque<Press>> presses;  ///< by the joint's name, or "Probe"
   bool is_octopus = false;  ///< its nodes see the same stops, each from its own on, and the same probe
   std::function<bool()> interrupted;
+  std::function<void(std::string_view)> on_question;  ///< what happens at the boards meanwhile
   std::string said;
   std::vector<std::pair<std::string, std::vector<std::uint8_t>>> flashed;
   int questions = 0, most_questions = 500;
@@ -125,6 +146,7 @@ class SetupRig {
  private:
   std::optional<std::string> answer() {
     const std::string question = std::exchange(question_, {});
+    if (on_question) on_question(question);
     if (++questions > most_questions) return std::nullopt;
     if (question.find("What moved first?") != std::string::npos) return look();
     if (question.find("Which joint moved?") != std::string::npos) return moved_;
@@ -182,7 +204,28 @@ class SetupRig {
     }
   }
 
+  /// As kinebus-flash does.
+  bool write_program(const std::string& file, const std::vector<std::uint8_t>& nodes, bool other_kind) {
+    std::ifstream in(file, std::ios::binary);
+    const std::vector<std::uint8_t> image{std::istreambuf_iterator<char>(in), {}};
+    bool good = true;
+    for (const std::uint8_t node : nodes) {
+      ProgramUpdate work(node, image, now_, {.answer = std::chrono::seconds{1}, .other_kind = other_kind});
+      while (work.status() == ProgramUpdate::Status::kBusy) {
+        while (const auto frame = work.next_frame()) tell_all(*frame, nullptr, false);
+        if (const auto frame = receive(std::min(work.next_deadline(), now_ + std::chrono::milliseconds{1})))
+          work.on_frame(now_, *frame);
+        work.on_time(now_);
+      }
+      said += "node " + std::to_string(node) + ": " + work.message() + "\n";
+      good = good && work.status() == ProgramUpdate::Status::kDone;
+    }
+    return good;
+  }
+
   void tell_all(const CanFrame& frame, const Node* but, bool from_heat) {
+    for (const auto& ebb : ebbs)
+      if (ebb.get() != speaking_) ebb->on_frame(now_, frame);
     for (AxisBoard& board : boards)
       if (board.node.get() != but) board.node->on_frame(now_, frame);
     if (heat && !from_heat) heat->on_frame(now_, frame);
@@ -207,6 +250,7 @@ class SetupRig {
         if (first == 0 && std::abs(at) > 100) first = at;
       }
     }
+    for (const auto& ebb : ebbs) ebb->on_time(now_);
     if (!heat) return;
     for (; sampled_ <= now_; sampled_ += heat::HeatPlant::kPeriod) plant.step(*heat, sampled_);
     heat->on_time(now_);
@@ -218,6 +262,14 @@ class SetupRig {
       for (AxisBoard& board : boards)
         if (const auto frame = board.node->next_frame()) {
           tell_all(*frame, board.node.get(), false);
+          now_ += std::chrono::microseconds{130};
+          return frame;
+        }
+      for (const auto& ebb : ebbs)
+        if (const auto frame = ebb->next_frame(now_)) {
+          speaking_ = ebb.get();
+          tell_all(*frame, nullptr, false);
+          speaking_ = nullptr;
           now_ += std::chrono::microseconds{130};
           return frame;
         }
@@ -233,6 +285,7 @@ class SetupRig {
 
   std::filesystem::path folder_;
   LocalTime now_{std::chrono::seconds{1}}, sampled_{std::chrono::seconds{1}}, press_at_{0};
+  const FlashBoard* speaking_ = nullptr;
   std::optional<Press> press_;
   std::string question_, asked_, moved_;
 };

@@ -180,10 +180,30 @@ TEST_F(TwoCards, ABoardThatIsMissingIsAskedForAndNothingIsWritten) {
 }
 
 TEST_F(TwoCards, ProgramsAreWrittenToAllCardsWhenAskedFor) {
-  rig.answers["to write over CAN"] = {"kinebus-node.bin"};
+  rig.add_program("next.bin", make_image(4004, 1));
+  rig.programs.clear();
+  rig.answers["to write over CAN"] = {rig.file("next.bin").string()};
   ASSERT_EQ(rig.walk(), 0) << rig.said;
   ASSERT_EQ(rig.flashed.size(), 1u);
   EXPECT_EQ(rig.flashed[0].second, (std::vector<std::uint8_t>{1, 2}));
+}
+
+TEST_F(TwoCards, AFileThatIsNoProgramForThemIsNotWritten) {
+  rig.add_program("ebb.bin", FlashBoard::image(1, false));
+  auto damaged = make_image(4004, 1);
+  damaged[3000] ^= 1;
+  rig.add_program("damaged.bin", damaged);
+  rig.programs.clear();
+  rig.answers["to write over CAN"] = {"nowhere.bin", rig.file("ebb.bin").string(),
+                                      rig.file("damaged.bin").string(), ""};
+  ASSERT_EQ(rig.walk(), 0) << rig.said;
+  EXPECT_TRUE(rig.flashed.empty());
+  EXPECT_TRUE(said("cannot read nowhere.bin")) << rig.said;
+  EXPECT_TRUE(
+      said("ebb.bin: found the program of Kinebus extruder axis on an EBB; expected that of Kinebus two-axis "
+           "node, kinebus-node.bin"))
+      << rig.said;
+  EXPECT_TRUE(said("damaged.bin: the image's CRC is wrong: the file is damaged")) << rig.said;
 }
 
 }  // namespace
