@@ -217,5 +217,18 @@ TEST_F(Commanded, AStopWhileAFoundTextIsReadToItsPlaceLeavesTheJobToBeGoneOnWith
   ASSERT_TRUE(rig.run_until([&] { return told().find("the job part goes on") != std::string::npos; }, 30s));
 }
 
+TEST_F(Commanded, AJobThatIsLostInItsCheckLeavesNoName) {
+  ASSERT_TRUE(ready());
+  ASSERT_TRUE(runs(kLine));
+  ASSERT_EQ(state(), MachineState::kChecking);
+  rig.gateway->on_bus_failure(rig.now, "gone");
+  ASSERT_TRUE(rig.reach(MachineState::kAlarm, 2s));
+  told();
+  ASSERT_TRUE(asks(command::Clear{}));
+  EXPECT_EQ(told(), "- cleared: bring the machine up again\n= off\n");
+  EXPECT_EQ(status().job, "");
+  EXPECT_FALSE(status().interrupted);
+}
+
 }  // namespace
 }  // namespace kinebus

@@ -136,6 +136,12 @@ TEST_F(PositionTest, TheJobsFilamentIsShownAndAJointsMotorCountsAnew) {
   EXPECT_NEAR((*s.measured_pose)[kE], kPose[kE] - 3, 1e-5);
   is_known();
   EXPECT_NEAR(report().pose[kE], kPose[kE] - 3, 1e-5) << "as long as it is known";
+  const Standstill unknown(machine, links);
+  ASSERT_FALSE(unknown.positions_known());
+  position.take(unknown);
+  EXPECT_FALSE(position.homed());
+  is_known();
+  EXPECT_NEAR(report().pose[kE], kPose[kE], 1e-5);
 }
 
 TEST_F(PositionTest, OffCourseIsWhatAnEncoderSaysInTheJointsOwnUnit) {
