@@ -26,6 +26,7 @@ constexpr double kFarthestMotorTurn = 0.5236;  // rad, 30 degrees
 constexpr double kMotorJogSpeed = 5;           // mm/s
 constexpr double kMotorTurnSpeed = 0.1;        // rad/s
 constexpr double kJointsMeet = 1e-3;           // mm or rad: as exact as a pose is found
+constexpr double kNoWay = 1e-6;                // mm or rad: a coordinate of it that was not to change
 
 }  // namespace
 
@@ -157,7 +158,10 @@ Done Gateway::Core::on(command::JogMotor& asked) {
     if (std::abs(reached[i] - joints[i]) > kJointsMeet)
       return refused(say("%1 cannot move alone here", joint.name));
   command::Jog jog;
-  for (std::size_t axis = 0; axis < kPoseAxes; ++axis) jog.delta[axis] = to[axis] - (*from)[axis];
+  for (std::size_t axis = 0; axis < kPoseAxes; ++axis) {
+    const double part = to[axis] - (*from)[axis];
+    jog.delta[axis] = std::abs(part) > kNoWay ? part : 0;
+  }
   // As long as the joint takes; a jog's speed is the tool's, or that of the axis that goes farthest.
   const double speed = asked.speed_per_s > 0 ? asked.speed_per_s
                        : joint.rotary        ? kMotorTurnSpeed

@@ -17,13 +17,21 @@ namespace kinebus {
 struct Hand {
   struct OfHeater {
     double actual = 20, target = 0;
+    int fed_ahead = 0;  ///< times that it was told what filament to come will take
+    FlowAhead ahead{};
     bool lags = false;  ///< it does not come to its target
     bool broken = false;
     bool told = false;  ///< that it is: until that is cleared, it does not heat
+    Measured measured = Measured::kNotTold;
+    std::optional<HeaterTuning> tuning;  ///< none: nobody can measure it
   };
   OfHeater hotend, bed;
   FilamentCondition filament = FilamentCondition::kInOrder;
-  double spindle_rpm = 0;  ///< to be
+  int followed = 0;  ///< times that the extruder's place was told
+  double extruder_mm = 0;
+  ContactProbe::Pin pin = ContactProbe::Pin::kNone;  ///< kNone: there is no probe
+  std::optional<ContactProbe::PinOrder> pin_order;   ///< the last one
+  double spindle_rpm = 0;                            ///< to be
   bool spindle_lags = false;
   int served = 0;  ///< turns of the spindle's on_time()
 };
@@ -36,7 +44,16 @@ class HandHeater final : public Heater {
     if (!hand_.lags) hand_.actual = hand_.target > 0 ? hand_.target : 20;
   }
   HeaterStatus status() const override {
-    return {.actual_celsius = hand_.actual, .target_celsius = hand_.target};
+    return {.actual_celsius = hand_.actual, .target_celsius = hand_.target, .measured = hand_.measured};
+  }
+  std::optional<Sentence> cannot_tune() const override {
+    return hand_.tuning ? std::nullopt : Heater::cannot_tune();
+  }
+  void tune(double celsius) override { hand_.tuning = HeaterTuning{TuningStage::kBegins, celsius, {}, {}}; }
+  HeaterTuning tuning() const override { return hand_.tuning.value_or(HeaterTuning{}); }
+  void feed_ahead(const FlowAhead& watts) override {
+    ++hand_.fed_ahead;
+    hand_.ahead = watts;
   }
   std::optional<Sentence> fault() const override {
     hand_.told = hand_.told || hand_.broken;
@@ -50,11 +67,27 @@ class HandHeater final : public Heater {
 
 class HandFilament final : public FilamentSensor {
  public:
-  explicit HandFilament(const Hand& hand) : hand_(hand) {}
+  explicit HandFilament(Hand& hand) : hand_(hand) {}
   FilamentCondition condition() const override { return hand_.filament; }
+  void follow(double mm) override {
+    ++hand_.followed;
+    hand_.extruder_mm = mm;
+  }
 
  private:
-  const Hand& hand_;
+  Hand& hand_;
+};
+
+class HandProbe final : public ContactProbe {
+ public:
+  explicit HandProbe(Hand& hand) : hand_(hand) {}
+  bool touches() const override { return false; }
+  Pin pin() const override { return hand_.pin; }
+  void move_pin(PinOrder order) override { hand_.pin_order = order; }
+  Sentence pin_words() const override { return Sentence::verbatim("the pin is stuck"); }
+
+ private:
+  Hand& hand_;
 };
 
 class HandSpindle final : public SpindleDrive {
@@ -87,6 +120,7 @@ class HandRig : public ::testing::Test {
     devices.add(kFirstHotend, "hotend", 0, std::make_unique<HandHeater>(hand.hotend));
     devices.add(kFirstBed, "bed", 0, std::make_unique<HandHeater>(hand.bed));
     devices.add_filament_sensor("spool", 0, std::make_unique<HandFilament>(hand));
+    if (hand.pin != ContactProbe::Pin::kNone) devices.set_probe(0, std::make_unique<HandProbe>(hand));
     devices.set_spindle(0, std::make_unique<HandSpindle>(hand));
     rig.machine = machine;
     rig.gateway = std::make_unique<Gateway>(rig.machine, options, std::move(devices));

@@ -257,6 +257,59 @@ TEST_F(SetAside, AHotEndStandsByInPlaceWhereTheRunIsGoneAndItsHeatWasLeft) {
   EXPECT_EQ(hand.hotend.target, 200) << "what the job wants";
 }
 
+TEST_F(SetAside, AHeaterThatBreaksOnTheWayBackHoldsItThereAndItGoesOnWhenThatIsMended) {
+  ASSERT_TRUE(ready());
+  ASSERT_TRUE(prints_to(20));
+  ASSERT_TRUE(asks(command::Hold{}));
+  ASSERT_TRUE(rig.reach(MachineState::kHeld, 1s));
+  const double on_part = z();
+  ASSERT_TRUE(asks(command::StepAside{}));
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 20s));
+  ASSERT_TRUE(asks(command::Resume{}));
+  ASSERT_TRUE(rig.run_until([&] { return x() > -20; }, 20s));
+  told();
+  hand.hotend.broken = true;
+  ASSERT_TRUE(rig.reach(MachineState::kHeld, 10s));
+  EXPECT_EQ(told().find("! heater.hotend: the sensor is open\n= holding\n- the job is held at X"), 0U);
+  EXPECT_TRUE(rests());
+  EXPECT_LT(x(), 19) << "where it was on its way";
+  EXPECT_TRUE(status().interrupted);
+  hand.hotend.broken = false;
+  ASSERT_TRUE(goes_on_to_the_end(on_part)) << told_until_now;
+}
+
+TEST_F(SetAside, AHeaterThatBreaksOnTheWayToAJobsBeginningIsAnAlarm) {
+  ASSERT_TRUE(ready());
+  ASSERT_TRUE(asks(command::Jog{.delta = {50, 0, 0, 0, 0, 0}, .speed_per_s = 100}));
+  ASSERT_TRUE(rig.reach(MachineState::kReady, 5s));
+  ASSERT_TRUE(runs("G1 X-20 F1200\n"));
+  ASSERT_TRUE(rig.reach(MachineState::kRunning, 2s));
+  rig.run_for(50ms);
+  hand.filament = FilamentCondition::kOut;
+  rig.run_for(50ms);
+  EXPECT_EQ(state(), MachineState::kRunning) << "nothing is fed yet";
+  hand.filament = FilamentCondition::kInOrder;
+  hand.hotend.broken = true;
+  ASSERT_TRUE(rig.reach(MachineState::kAlarm, 2s));
+  EXPECT_FALSE(status().interrupted);
+}
+
+TEST_F(SetAside, FilamentThatNobodyHasMovedIsNotPrimed) {
+  MachineDescription machine = that_parks();
+  machine.resume.prime_mm = 2;
+  use(machine);
+  ASSERT_TRUE(ready());
+  ASSERT_TRUE(prints_to(20));
+  ASSERT_TRUE(asks(command::Stop{}));
+  ASSERT_TRUE(rig.reach(MachineState::kStopped, 1s));
+  const double e_mm = status().joints[5];
+  ASSERT_TRUE(asks(command::Clear{}));
+  ASSERT_TRUE(rig.reach(MachineState::kHeld, 5s));
+  ASSERT_TRUE(asks(command::Resume{}));
+  ASSERT_TRUE(rig.run_until([&] { return !status().interrupted; }, 30s));
+  EXPECT_NEAR(status().joints[5], e_mm, 0.02);
+}
+
 TEST_F(SetAside, AMachineWithoutAHotEndMovesNoFilament) {
   MachineDescription machine = that_parks();
   machine.heaters.clear();

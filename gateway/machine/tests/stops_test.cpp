@@ -308,6 +308,27 @@ TEST_F(Stops, ANodeThatIsTakenOutOfOperationIsNamed) {
   }
 }
 
+TEST_F(Stops, WhatTheGatewaysOwnAbsenceHasStoppedGoesOnByItselfWhereTheFileSaysSo) {
+  MachineDescription machine = with_devices(default_m1());
+  machine.stop.after_stall = StopDescription::AfterStall::kGoOn;
+  use(machine);
+  ASSERT_TRUE(ready());
+  ASSERT_TRUE(runs_to(kLine, 20));
+  told();
+  rig.stall(900ms);
+  ASSERT_TRUE(rig.run_until([&] { return state() == MachineState::kStopped; }, 3s));
+  ASSERT_TRUE(rig.reach(MachineState::kRunning, 10s)) << rig.story();
+  EXPECT_NE(told().find("- the gateway is back: the job goes on by itself\n"), std::string::npos);
+  ASSERT_TRUE(rig.reach(MachineState::kReady));
+  EXPECT_NEAR(x(), 0, 2e-3);
+  ASSERT_TRUE(asks(command::Jog{.delta = {30, 0, 0, 0, 0, 0}, .speed_per_s = 20}));
+  rig.run_for(500ms);
+  rig.stall(900ms);
+  rig.run_for(10s);
+  EXPECT_EQ(state(), MachineState::kStopped) << "a move by hand waits for the hand";
+  ASSERT_TRUE(cleared_to(MachineState::kHeld));
+}
+
 TEST_F(Stops, HeatIsOffWithAFaultAndStaysWithAStopWithoutOne) {
   ASSERT_TRUE(ready());
   ASSERT_TRUE(asks(command::SetTemperature{kFirstBed, 60}));
