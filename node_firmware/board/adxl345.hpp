@@ -56,26 +56,14 @@ class Adxl345 {
   // From the end of a reading to the next look at the queue.
   static constexpr unsigned kBetween_us = 5;
 
-  /// False: the bus stands.
-  bool talk(std::uint8_t first, std::span<std::uint8_t> bytes) {
-    bus_.select(true);
-    bool good = bus_.exchange(first).has_value();
-    for (std::uint8_t& byte : bytes) {
-      const auto got = good ? bus_.exchange(byte) : std::nullopt;
-      good = got.has_value();
-      byte = got.value_or(0);
-    }
-    bus_.select(false);
-    return good;
-  }
   std::optional<std::uint8_t> read(Register from) {
     std::array<std::uint8_t, 1> byte{};
-    if (!talk(static_cast<std::uint8_t>(from | kRead), byte)) return std::nullopt;
+    if (!talk(bus_, static_cast<std::uint8_t>(from | kRead), byte)) return std::nullopt;
     return byte[0];
   }
   bool write(Register to, std::uint8_t value) {
     std::array<std::uint8_t, 1> byte{value};
-    return talk(to, byte);
+    return talk(bus_, to, byte);
   }
   bool set_up() {
     if (read(kDeviceId) != kOwnId) return false;
@@ -91,7 +79,7 @@ class Adxl345 {
     std::size_t count = 0;
     for (; count < there; ++count) {
       std::array<std::uint8_t, 6> bytes{};
-      if (!talk(kData | kRead | kSeveral, bytes)) break;
+      if (!talk(bus_, kData | kRead | kSeveral, bytes)) break;
       for (std::size_t axis = 0; axis < 3; ++axis)
         readings_[count][axis] = static_cast<std::int16_t>(bytes[2 * axis] | bytes[2 * axis + 1] << 8);
       bus_.wait_us(kBetween_us);

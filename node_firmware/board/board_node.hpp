@@ -2,6 +2,7 @@
 // One of the nodes of a board: its core, what it wants to hear, and the plan of its motors.
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -39,13 +40,18 @@ class BoardNode {
   Node& node() { return node_; }
   const Node& node() const { return node_; }
   const Hearing& hearing() const { return hearing_; }
-  bool due(LocalTime now) const { return touched_ || now >= due_; }
+  bool due(LocalTime now) const { return touched_ || renewed_ || now >= due_; }
   /// Something was told to the node elsewhere.
   void touch() { touched_ = true; }
+  std::optional<CanFrame> next_frame() {
+    auto frame = node_.next_frame();
+    renewed_ = renewed_ || frame;
+    return frame;
+  }
 
   /// From the bus, or from another node of the board.
   void on_frame(LocalTime at, const CanFrame& frame) {
-    if (!hearing_.hears(frame) || asks_for_nothing(frame)) return;
+    if (!hearing_.hears(frame)) return;
     node_.on_frame(at, frame);
     touched_ = true;
     // At once: the frame may have come after this pass began, and its answer goes out in this pass.
@@ -57,8 +63,11 @@ class BoardNode {
     node_.on_switch(at, place, level);
     touched_ = true;
   }
-  /// What is due, and a new plan where it has become another one.
+  /// What is due, and a new plan where it has become another one. Most frames are for one node of a board,
+  /// or for none: the others have nothing to find out then.
   void serve(LocalTime now) {
+    if (!due(now)) return;
+    renewed_ = true;
     bool changed = std::exchange(touched_, false);
     // The inputs have taken a while, in which the motors have gone on.
     const bool stops = node_.stop_waits();
@@ -82,17 +91,14 @@ class BoardNode {
     return hearing_.renew(node_);
   }
   /// After the frames that the node has to say were taken.
-  void find_due() { due_ = std::min({node_.next_deadline(), plan_due_, hearing_due_}); }
+  void find_due() {
+    if (std::exchange(renewed_, false)) due_ = std::min({node_.next_deadline(), plan_due_, hearing_due_});
+  }
 
  private:
   static NodeOptions told_by_plan(NodeOptions options) {
     options.stops_on_time = true;
     return options;
-  }
-  /// An EMCY of another node that asks for no stop: most of them, and there may be as many as the bus
-  /// carries.
-  static bool asks_for_nothing(const CanFrame& frame) {
-    return frame.id > cob_id::kSync && frame.id <= cob_id::kSync + 127 && (frame.data[3] & 0x7F) == 0;
   }
 
   static constexpr LocalTime kHearingPeriod = std::chrono::milliseconds{10};
@@ -105,6 +111,7 @@ class BoardNode {
   Hearing hearing_;
   LocalTime due_{0}, plan_due_{0}, hearing_due_{0};
   bool touched_ = true;
+  bool renewed_ = false;  ///< or was served: what is due next is not known
 };
 
 }  // namespace kinebus

@@ -23,6 +23,7 @@ inline constexpr std::size_t kCanFilters = 14;
 /// Since power-up; written by interrupts, words read singly.
 struct CanEvents {
   std::uint32_t overruns = 0, bus_off = 0, passive = 0;
+  friend constexpr bool operator==(const CanEvents&, const CanEvents&) = default;
 };
 
 struct SwitchEdge {

@@ -20,7 +20,7 @@ class Hearing {
     const auto add = [&](std::uint32_t value, std::uint32_t mask = 0x7FF) {
       wanted[count++] = {static_cast<std::uint16_t>(value), static_cast<std::uint16_t>(mask)};
     };
-    add(0x080, 0x780);  // SYNC, and the EMCYs of others: stop requests
+    add(0x080, 0x780);  // SYNC, and the EMCYs of others: stop requests. The first: see hears()
     add(0x000);         // NMT
     add(0x7E5);         // LSS
     add(kVoucherCobId);
@@ -44,15 +44,22 @@ class Hearing {
     count_ = count;
     return true;
   }
+  /// An EMCY of another node that asks for no stop is heard only where a PDO has its number: most of them are
+  /// such, and there may be as many as the bus carries.
   bool hears(const CanFrame& frame) const {
     if (frame.extended) return false;
-    for (const CanAccept& accept : accepted())
-      if ((frame.id & accept.mask) == accept.value && frame.remote == accept.remote) return true;
+    for (std::size_t i = asks_for_nothing(frame) ? 1 : 0; i < count_; ++i)
+      if ((frame.id & accepted_[i].mask) == accepted_[i].value && frame.remote == accepted_[i].remote)
+        return true;
     return false;
   }
   std::span<const CanAccept> accepted() const { return std::span(accepted_).first(count_); }
 
  private:
+  static bool asks_for_nothing(const CanFrame& frame) {
+    return frame.id > cob_id::kSync && frame.id <= cob_id::kSync + 127 && (frame.data[3] & 0x7F) == 0;
+  }
+
   std::array<CanAccept, kCanFilters> accepted_{};
   std::size_t count_ = 0;
 };

@@ -90,17 +90,7 @@ class Max31865 {
   using Registers = std::array<std::uint8_t, 8>;
 
   bool talk(std::uint8_t first, std::span<std::uint8_t> bytes) {
-    bus_.select(true);
-    bus_.wait_us(1);  // 400 ns from select to clock, and between two selects
-    bool good = bus_.exchange(first).has_value();
-    for (std::uint8_t& byte : bytes) {
-      const auto got = good ? bus_.exchange(byte) : std::nullopt;
-      good = got.has_value();
-      byte = got.value_or(0);
-    }
-    bus_.select(false);
-    bus_.wait_us(1);
-    return good;
+    return kinebus::talk<1>(bus_, first, bytes);  // 400 ns
   }
   bool write_settings(std::uint8_t value) {
     std::array<std::uint8_t, 1> byte{value};

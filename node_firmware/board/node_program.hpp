@@ -79,11 +79,12 @@ class NodeProgram {
   void on_edge(const SwitchEdge& edge);
   void send();
   void filter();
+  bool bus_news() const { return kNodes != 0 && (can_.events() != told_ || can_.bus_off() != was_off_); }
   void report_bus();
   static std::optional<CanFrame> next_frame_of([[maybe_unused]] Place& place) {
     // A board without axes has no code of theirs.
     if constexpr (kNodes != 0)
-      if (place) return place->node().next_frame();
+      if (place) return place->next_frame();
     return std::nullopt;
   }
   template <typename Do>
@@ -123,14 +124,13 @@ template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_
 void NodeProgram<Can, Switches, Counter, kNodes, Heat>::pass() {
   now_ = clock_.now();
   heat_.drive(now_);
-  const bool input = can_.front() != nullptr || switches_.front() != nullptr;
-  if (!input && !heat_.due(now_) &&
+  take_inputs();
+  if (!bus_news() && !heat_.due(now_) &&
       std::ranges::none_of(nodes_, [&](const Place& n) { return n && n->due(now_); })) {
     // Nothing to do for a node: most passes end here.
     if (!can_.queue().idle()) send();
     return;
   }
-  take_inputs();
   each([&](auto& n) { n.serve(now_); });
   heat_.serve(now_);
   heat_.drive(now_);  // power that was taken does not wait for the next pass
@@ -231,6 +231,7 @@ void NodeProgram<Can, Switches, Counter, kNodes, Heat>::filter() {
 
 template <CanDriver Can, SwitchDriver Switches, LocalCounter Counter, std::size_t kNodes, typename Heat>
 void NodeProgram<Can, Switches, Counter, kNodes, Heat>::report_bus() {
+  if (!bus_news()) return;
   const CanEvents events = can_.events();
   const bool off = can_.bus_off();
   // Told when the bus can hear it again.
@@ -244,6 +245,7 @@ void NodeProgram<Can, Switches, Counter, kNodes, Heat>::report_bus() {
     if (events.passive != told_.passive) node.report(emcy::kErrorPassive);
     if (events.bus_off != told_.bus_off) node.count(NodeCounter::kBusOff, events.bus_off - told_.bus_off);
     if (back) node.report(emcy::kBusOffRecovered);
+    n.touch();
   });
   was_off_ = off;
   told_ = events;

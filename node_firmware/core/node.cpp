@@ -204,7 +204,9 @@ std::int64_t Node::user_position(LocalTime at, int axis) {
 }
 
 LatchedPositions NodePreview::positions(LocalTime at) {
-  stream_.advance_to(node_.path_.tau(at));
+  const SegmentStream& stream = node_.path_.stream();
+  // Nobody goes by path time: then it need not be known.
+  if (stream.following(0) || stream.following(1)) stream_.advance_to(node_.path_.tau(at));
   LatchedPositions motor{};
   for (std::size_t i = 0; i < axes_; ++i) {
     const DriveAxis& axis = node_.axes_[i];

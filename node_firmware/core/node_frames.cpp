@@ -26,9 +26,12 @@ void Node::on_frame(LocalTime at, const CanFrame& frame) {
     on_nmt(*command);
   } else if (nmt_.state() != NmtState::kInitialising) {
     path_.on_peer_emcy(frame, now_);
-    static_cast<void>(watched_.on_frame(now_, frame));
+    const bool news = watched_.on_frame(now_, frame).has_value();
     if (nmt_.allows_sdo()) sdo_.on_frame(now_, frame);
-    static_cast<void>(pdo_.on_frame(now_, frame));
+    const bool pdo = pdo_.on_frame(now_, frame) != PdoEngine::Reception::kNotMine;
+    // Of a frame that is for others nothing follows, and on a full bus most are.
+    const bool emcy = cob_id::node_of(frame.id, cob_id::kEmcy) != 0;
+    if (!news && !pdo && !emcy && frame.id != cob_id::kSdoRequest + node_id_) return;
   }
   serve();
 }

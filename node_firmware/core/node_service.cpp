@@ -126,8 +126,8 @@ void Node::watch_levels() {
     const bool active = inputs_.active(limit.function);
     const bool came = active && !std::exchange(limit_active_[i], active);
     limit_active_[i] = active;
-    const bool moves = moving(now_) || !path_.at_rest(now_);
-    if (came && moves && !axes_[static_cast<std::size_t>(limit.axis)].homes_with(limit.function))
+    if (!came || (!moving(now_) && path_.at_rest(now_))) continue;
+    if (!axes_[static_cast<std::size_t>(limit.axis)].homes_with(limit.function))
       path_.request_stop(StopReason::kLimitSwitch, limit.axis, node_emcy::kLimitSwitch, now_);
   }
 }

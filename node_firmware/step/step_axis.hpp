@@ -143,14 +143,16 @@ template <typename Put>
   }
   walk.go_on(first);
   const std::int32_t last = walk.velocity + (kSlots - first) * walk.change;
-  if (walk.velocity >= 0 && last >= 0 && walk.place >= 0) {
-    steps_ += one_way(walk, Direction::kUp, put);
-  } else if (walk.velocity <= 0 && last <= 0 && walk.place < kWhole) {
-    // The same upside down.
-    walk.place = kWhole - 1 - walk.place;
-    walk.velocity = -walk.velocity;
-    walk.change = -walk.change;
-    steps_ -= one_way(walk, Direction::kDown, put);
+  const bool up = walk.velocity >= 0 && last >= 0 && walk.place >= 0;
+  if (up || (walk.velocity <= 0 && last <= 0 && walk.place < kWhole)) {
+    if (!up) {
+      // The same upside down.
+      walk.place = kWhole - 1 - walk.place;
+      walk.velocity = -walk.velocity;
+      walk.change = -walk.change;
+    }
+    const int made = one_way(walk, up ? Direction::kUp : Direction::kDown, put);
+    steps_ += up ? made : -made;
   } else {
     to_and_fro(walk, put);
   }
@@ -169,15 +171,22 @@ template <typename Put>
   const bool slow = (fastest < kSlow) && (walk.change < kEven) && (walk.change > -kEven);
   int made = 0;
   std::int32_t place = walk.place, velocity = walk.velocity;
-  const std::int32_t change = walk.change,
-                     skipped = (kSpacing * (kSpacing - 1) / 2 * change >> kFine) - kWhole;
+  const std::int32_t change = walk.change;
+  // What is left over by a step is less than the way of a slot, unless the axis is behind: then as many slots
+  // are passed over as the next step certainly takes. Up to half a frame, so that no product leaves its word.
+  int stride = kSpacing;
+  if (place - kWhole < fastest && fastest < kWhole / kSpacing) {
+    stride = kWhole / fastest;
+    if (stride > kSlots / 2) stride = kSlots / 2;
+  }
+  const std::int32_t skipped = (stride * (stride - 1) / 2 * change >> kFine) - kWhole;
   int slot = walk.slot;
   const auto step = [&](bool early) __attribute__((always_inline)) {
     early ? put.early_step(slot) : put.step(slot);
     ++made;
-    place += kSpacing * (velocity >> kFine) + skipped;
-    velocity += kSpacing * change;
-    slot += kSpacing;
+    place += stride * (velocity >> kFine) + skipped;
+    velocity += stride * change;
+    slot += stride;
   };
   if (slow) {
     while (slot < kSlots) {
@@ -214,8 +223,9 @@ template <typename Put>
   if (made != 0) {
     direction_ = direction;
     made_ = made;
-    // Only a step leaves a frame behind; it was the last thing in it then.
-    if (slot > kSlots) free_from_ = slot - kSlots;
+    // Only a step leaves a frame so far behind; it was the last thing in it then.
+    const int free = slot - stride + kSpacing;
+    if (free > kSlots) free_from_ = free - kSlots;
   }
   walk.place = place;
   return made;

@@ -87,6 +87,32 @@ TEST_F(Program, TakesEightInputsAPassSoThatWhatIsDueIsServed) {
   EXPECT_TRUE(can.in.empty());
 }
 
+// Half of the bus are EMCYs of others that ask for nothing: no node looks at them. A PDO may have such a
+// number.
+TEST_F(Program, AnEmcyThatAsksForNothingIsHeardOnlyWhereAPdoHasItsNumber) {
+  const CanFrame shut_down = CanFrame::make(0x0C5, {6, 0, 6, 0, 1, 1});
+  const auto state = [&] { return program.node().axis(0).state(); };
+  can.arrive(CanFrame::make(0x000, {1, 5}));
+  can.arrive(shut_down);
+  run(5ms);
+  EXPECT_EQ(state(), cia402::State::kSwitchOnDisabled);
+  can.arrive(CanFrame::make(0x605, {0x23, 0x00, 0x14, 1, 0x05, 0x02, 0, 0x80}));
+  can.arrive(CanFrame::make(0x605, {0x23, 0x00, 0x14, 1, 0xC5, 0x00, 0, 0}));
+  run(5ms);
+  can.arrive(shut_down);
+  run(5ms);
+  EXPECT_EQ(state(), cia402::State::kReadyToSwitchOn);
+}
+
+// Frames that no node hears are no reason to look what is due; what the controller has to tell is.
+TEST_F(Program, ReceiveOverrunsAreToldThoughNothingElseHasCome) {
+  run(10ms);  // what is heard was looked at just now
+  can.sent.clear();
+  can.seen.overruns = 1;
+  run(1ms);
+  EXPECT_TRUE(can.told(0x8110));
+}
+
 TEST_F(Program, TellsOfTheBusWhatTheControllerSaw) {
   can.sent.clear();
   can.seen.overruns = 1;

@@ -296,6 +296,38 @@ TEST(StepAxis, ATurnJustBeyondABorderLosesNoStep) {
   EXPECT_GT(made, 20u);
 }
 
+/// A way at constant speed, in counts.
+PlannedWay steady(double from, double counts) {
+  return {static_cast<std::int64_t>(from * kCount), static_cast<std::int64_t>(counts * kCount), 0};
+}
+
+// A frame that begins behind its plan, which is slow: what is missing is made as fast as steps go.
+TEST(StepAxis, WhatIsMissingIsMadeUpAtOnceHoweverSlowThePlan) {
+  for (const double counts : {1.0, 30.0, 100.0}) {
+    Line line;
+    ASSERT_TRUE(line.frame(steady(56.5, counts)));  // beyond four borders
+    ASSERT_GE(line.driver.rises.size(), 4u);
+    for (std::size_t i = 1; i < 4; ++i)
+      EXPECT_EQ(line.driver.rises[i].slot - line.driver.rises[i - 1].slot, kSpacing) << counts;
+  }
+}
+
+// The step of a frame's last slot holds back the next one by what a driver needs, and no longer.
+TEST(StepAxis, AFasterPlanAfterAStepAtAFramesEndIsFollowedAtOnce) {
+  Line line;
+  ASSERT_TRUE(line.frame(steady(-6.6, 15)));
+  ASSERT_TRUE(line.frame(steady(8.4, 204)));
+  ASSERT_TRUE(line.frame(steady(212.4, 0)));
+  ASSERT_GE(line.driver.rises.size(), 10u);
+  std::int64_t before = kSlots - 1 + kSetUp;
+  EXPECT_EQ(line.driver.rises[0].slot, before);
+  for (std::size_t i = 1; i < 10; ++i) {
+    const std::int64_t rise = line.driver.rises[i].slot;
+    EXPECT_LE(rise - before, 6) << i;
+    before = rise;
+  }
+}
+
 TEST(StepAxis, APlanThatJumpsIsToldAndNotFollowed) {
   Line line;
   const auto far = static_cast<std::int64_t>(1'000 * kCount);
