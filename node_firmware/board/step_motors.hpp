@@ -30,7 +30,8 @@ template <typename T>
 concept StepStage = requires(T& stage, typename T::Frames& frames, int axis, bool on) {
   { T::kPins.size() } -> std::convertible_to<std::size_t>;  // of StepPins: by node, and by its axis
   requires T::kPins.size() % kAxesPerNode == 0;
-  { T::kStepBits } -> std::convertible_to<int>;   // log2 of counts a step
+  { T::kStepBits } -> std::convertible_to<int>;  // log2 of counts a step
+  { T::kQuickDivision } -> std::convertible_to<bool>;
   { T::kPlan } -> std::convertible_to<PlanSize>;  // by how long a pass of the main loop takes
   // Puts frames out from now on, the two halves in turn, a word each kSlotCounts of the same clock, and calls
   // the control interrupt at the last word of each. When the first has begun.
@@ -90,7 +91,7 @@ class StepMotors {
   static constexpr LocalTime kFaultRest = std::chrono::milliseconds{100};
 
   struct Axis {
-    step::StepAxis<Stage::kStepBits> steps;
+    step::StepAxis<Stage::kStepBits, Stage::kQuickDivision> steps;
     std::atomic<bool> power{false}, inverted{false};
     std::atomic<bool> lost{false};  ///< steps were asked for that cannot be made, or made twice
     bool steps_inverted = false;    ///< as the direction pin was set last

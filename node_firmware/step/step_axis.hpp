@@ -41,8 +41,9 @@ inline PlannedWay planned_way(const MotionPlan& plan, int axis, PlanCounts frame
                              plan.at(axis, begin + kFrameCounts).position);
 }
 
-/// A step is 2^kStepBits counts: 4 where a full step of 256 counts is 16 microsteps.
-template <int kStepBits>
+/// A step is 2^kStepBits counts: 4 where a full step of 256 counts is 16 microsteps. kQuickDivision: the
+/// processor has an instruction for it.
+template <int kStepBits, bool kQuickDivision = true>
 class StepAxis {
  public:
   /// So far, in counts, what is walked may be from the parabola at a frame's end, where it is most: rounded
@@ -107,16 +108,17 @@ class StepAxis {
   Direction direction_ = Direction::kUnknown;
 };
 
-template <int kStepBits>
-void StepAxis<kStepBits>::follow(const PlannedWay& way) {
+template <int kStepBits, bool kQuickDivision>
+void StepAxis<kStepBits, kQuickDivision>::follow(const PlannedWay& way) {
   steps_ = static_cast<std::int32_t>((way.to() + kStep / 2) >> kStepShift);
   free_from_ = made_ = 0;
 }
 
 // Inlined with what it calls: in a control interrupt all of it is to stay in registers.
-template <int kStepBits>
+template <int kStepBits, bool kQuickDivision>
 template <typename Put>
-[[gnu::always_inline]] inline bool StepAxis<kStepBits>::fill(const PlannedWay& way, Put&& put) {
+[[gnu::always_inline]] inline bool StepAxis<kStepBits, kQuickDivision>::fill(const PlannedWay& way,
+                                                                             Put&& put) {
   made_ = 0;
   // The place above the lower border of the present step.
   const std::int64_t from = way.from - (static_cast<std::int64_t>(steps_) * kStep - kStep / 2);
@@ -159,9 +161,11 @@ template <typename Put>
   return walk.place < (kMostBehind + 1) * kWhole && walk.place >= -kMostBehind * kWhole;
 }
 
-template <int kStepBits>
+template <int kStepBits, bool kQuickDivision>
 template <typename Put>
-[[gnu::always_inline]] inline int StepAxis<kStepBits>::one_way(Walk& walk, Direction direction, Put& put) {
+[[gnu::always_inline]] inline int StepAxis<kStepBits, kQuickDivision>::one_way(Walk& walk,
+                                                                               Direction direction,
+                                                                               Put& put) {
   // A slow axis goes at once as far as it certainly makes no step: the way to the border by the fastest that
   // it is in this frame. A division of words: 12 cycles at most.
   const std::int32_t last = walk.velocity + (kSlots - walk.slot) * walk.change;
@@ -174,8 +178,9 @@ template <typename Put>
   const std::int32_t change = walk.change;
   // What is left over by a step is less than the way of a slot, unless the axis is behind: then as many slots
   // are passed over as the next step certainly takes. Up to half a frame, so that no product leaves its word.
+  // A slow axis divides anyway: one division more is too much where each takes long.
   int stride = kSpacing;
-  if (place - kWhole < fastest && fastest < kWhole / kSpacing) {
+  if ((kQuickDivision || !slow) && place - kWhole < fastest && fastest < kWhole / kSpacing) {
     stride = kWhole / fastest;
     if (stride > kSlots / 2) stride = kSlots / 2;
   }
@@ -232,9 +237,9 @@ template <typename Put>
 }
 
 // Turning within the frame, or before it: step by step.
-template <int kStepBits>
+template <int kStepBits, bool kQuickDivision>
 template <typename Put>
-[[gnu::noinline]] void StepAxis<kStepBits>::to_and_fro(Walk& walk, Put& put) {
+[[gnu::noinline]] void StepAxis<kStepBits, kQuickDivision>::to_and_fro(Walk& walk, Put& put) {
   while (walk.slot < kSlots) {
     if (static_cast<std::uint32_t>(walk.place) < static_cast<std::uint32_t>(kWhole)) {
       walk.go_on(1);

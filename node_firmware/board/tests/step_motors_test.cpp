@@ -15,6 +15,7 @@ struct FakeStepStage {
   using Frames = step::StepFrames<1>;
   static constexpr std::array<StepPins, 2> kPins{{{0, 0, 1, 2}, {0, 0, 4, 8}}};
   static constexpr int kStepBits = 4;
+  static constexpr bool kQuickDivision = true;
   static constexpr PlanSize kPlan{};
   static inline const Frames* frames = nullptr;
   static inline std::array<bool, 2> enabled{};

@@ -20,6 +20,7 @@ class StepPort {
   using Frames = step::StepFrames<kPorts>;
   static constexpr std::array<Port, kPorts> kGpio{Port::F, Port::G, Port::C, Port::E, Port::A};
   static constexpr int kStepBits = octopus::kStepBits;
+  static constexpr bool kQuickDivision = true;
   static constexpr PlanSize kPlan{.pieces = MotionPlan::kPieces, .fresh = MotionPlan::kPieces / 2};
   static constexpr auto kPins = [] {
     std::array<StepPins, octopus::kDrivers.size()> pins{};

@@ -19,6 +19,7 @@ class StepPort {
   static constexpr std::size_t kPorts = 2;  ///< steps, directions
   using Frames = step::StepFrames<kPorts, step::ForcedWords>;
   static constexpr int kStepBits = ebb::kStepBits;
+  static constexpr bool kQuickDivision = false;
   /// A pass of the main loop may take 5.6 ms.
   static constexpr PlanSize kPlan{.pieces = MotionPlan::kPieces, .fresh = 5, .axes = 1};
   /// Axis B is not there.
