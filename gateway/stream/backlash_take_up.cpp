@@ -19,15 +19,13 @@ int turning_points(const std::array<double, 4>& c, double end, double* roots) {
   const auto take = [&](double t) {
     if (t > 0 && t < end) roots[count++] = t;
   };
-  if (std::abs(a) * end <= 1e-12 * std::abs(b)) {
-    if (b != 0) take(-d / b);
-  } else if (const double square = b * b - 4 * a * d; square > 0) {
-    // The root of larger magnitude first, the other from their product: no digits are lost.
+  if (const double square = b * b - 4 * a * d; square > 0) {
+    // The root of smaller magnitude first, from the product of both: no digits are lost. A root at infinity
+    // or 0/0 fails the comparisons.
     const double q = -0.5 * (b + std::copysign(std::sqrt(square), b));
+    take(d / q);
     take(q / a);
-    if (q != 0) take(d / q);
   }
-  if (count == 2 && roots[0] > roots[1]) std::swap(roots[0], roots[1]);
   return count;
 }
 
@@ -134,7 +132,7 @@ void BacklashTakeUp::watch(Track& track, const JointSpan& span, std::size_t join
     track.extreme = c[0];
     track.started = true;
     // A lost run may have left the motor inside the gap.
-    if (track.events.empty()) add_event(track, span.start_s);
+    add_event(track, span.start_s);
   }
   double roots[2];
   const int count = turning_points(c, span.duration_s, roots);
@@ -161,10 +159,6 @@ void BacklashTakeUp::watch(Track& track, const JointSpan& span, std::size_t join
 
 void BacklashTakeUp::push(const JointSpan& span) {
   assert(wants_span());
-  if (!needed_) {
-    out_.push_back(span);
-    return;
-  }
   double busy_until = 0;
   for (std::size_t j = 0; j < tracks_.size(); ++j) {
     if (!(tracks_[j].joint.gap > 0)) continue;

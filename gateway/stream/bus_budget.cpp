@@ -30,13 +30,14 @@ double BusBudget::allowed_rate(std::span<const NodeStream* const> nodes, PathTim
   std::uint64_t all = 0;
   for (const NodeStream* node : nodes) {
     made = std::min(made, node->made_until_units());
-    if (node->unsent() > 0) next = std::min(next, node->unsent_begins_units(0));
+    next = std::min(next, node->unsent_begins_units(0));
     all += node->unsent();
   }
   if (!run_complete) limit(made, 0);
+  if (all == 0) return rate;
   // All that waits fits before the first of it is due: the usual case, at once.
   const double before = rate;
-  if (all > 0) limit(next, static_cast<double>(all));
+  limit(next, static_cast<double>(all));
   if (rate >= before && all <= static_cast<std::uint64_t>(options_.node_records)) return rate;
   rate = before;
 
@@ -50,13 +51,16 @@ double BusBudget::allowed_rate(std::span<const NodeStream* const> nodes, PathTim
       records += waiting;
       if (waiting > 0) first = std::min(first, nodes[i]->unsent_begins_units(waiting - 1));
     }
-    if (records > 0) limit(first, static_cast<double>(records));
-    // What begins later has more time, and all that waits is the most that it can wait for.
-    const double tightest = rate;
-    if (records > 0) limit(first, static_cast<double>(all));
-    const bool settled = records > 0 && rate >= tightest;
-    rate = tightest;
-    if (settled || until == made) break;
+    bool settled = until == made;
+    if (records > 0) {
+      limit(first, static_cast<double>(records));
+      // What begins later has more time, and all that waits is the most that it can wait for.
+      const double tightest = rate;
+      limit(first, static_cast<double>(all));
+      settled |= rate >= tightest;
+      rate = tightest;
+    }
+    if (settled) break;
   }
 
   // A full queue, where it covers least.

@@ -31,9 +31,8 @@ void NodeStream::reset(const std::array<AxisState, kAxesPerNode>& states, std::u
   begin_ = accepted_ = sent_ = end_ = next_sequence;
   credit_ =
       accepted_ + std::min<std::uint64_t>(free_records, static_cast<std::uint64_t>(options_.queue_records));
+  if (last_status_) last_status_->free_records = free_records;
   open_ = false;
-  checkpoints_sent_ = 0;
-  next_checkpoint_ = end_;
   tail_units_ = 0;
   tail_ = states;
   for (AxisState& state : tail_) state.velocity = 0;
@@ -208,7 +207,6 @@ const NodeStream::Record* NodeStream::covering(std::int64_t units) const {
 std::optional<std::array<AxisState, kAxesPerNode>> NodeStream::state_at(PathTime tau) const {
   const Record* record = covering(floor_units(tau));
   if (record == nullptr) return begin_ == end_ ? std::optional(tail_) : std::nullopt;
-  if (record->duration == 0) return record->start;
   const std::int64_t ticks = tau.count() - record->start_units * kPathTicksPerUnit;
   const std::int64_t most = record->duration * kPathTicksPerUnit;
   std::array<AxisState, kAxesPerNode> states;

@@ -48,7 +48,6 @@ void Segmenter::start(const std::array<AxisState, kAxesPerNode>& states) {
   complete_ = ended_ = false;
   at_.p = Both{to_counts(states[0].position), to_counts(states[1].position)};
   at_.v = Both{};
-  widen(Both{});
 }
 
 /// The tolerances, while the state at the knot is `offset` counts off.
@@ -94,7 +93,7 @@ void Segmenter::push(const JointSpan& span) {
     p.c[3][i] = k * u * u * u * c[3];
   }
   p.bend = greatest(magnitude(p.c[3]) * axes_.per_tolerance);
-  if (count() == 0 && at_.knot == 0) {
+  if (count() == 0) {
     const Both offset = magnitude(p.c[0] - at_.p);
     start_offset_ = std::max(start_offset_, greatest(offset));
     widen(offset);
@@ -110,8 +109,9 @@ void Segmenter::push(const JointSpan& span) {
 }
 
 bool Segmenter::ready() const {
+  // Of a run that is complete the rest behind it has no end.
   return count() > 0 &&
-         (complete_ || !has_room() || place(count() - 1).end >= static_cast<double>(at_.knot) + 3 * kLongest);
+         (!has_room() || place(count() - 1).end >= static_cast<double>(at_.knot) + 3 * kLongest);
 }
 
 double Segmenter::known() const {
@@ -202,8 +202,7 @@ Segmenter::Fit Segmenter::run_on(const Reach& far) {
 /// From a jump on: perhaps the piece behind it is so short that the segment can go on to its end.
 Segmenter::Fit Segmenter::cross_jumps(Fit best, const Reach& far) {
   const double knot = static_cast<double>(at_.knot);
-  const std::size_t stop = complete_ ? count() - 1 : count();
-  for (std::size_t i = far.piece; i < stop; ++i) {
+  for (std::size_t i = far.piece; i < count(); ++i) {
     const double h = piece(i).end - knot, over = h - best.units;
     if (h > kLongest) break;
     if (piece(i - 1).jump * over * over > kHopeless) break;
@@ -233,14 +232,14 @@ void Segmenter::begin_chain(const Fit& fit) {
 /// Finds the segment behind link i, unless it is known. False: none is good enough.
 bool Segmenter::extend_chain(std::size_t i) {
   const std::size_t next = i + 1;
-  if (next < links_ && is_stale(link(next))) links_ = next;
+  if (is_stale(link(next))) links_ = next;
   if (next == links_) {
     Link& following = link(next);
     at_ = link(i).at;
     apply(link(i).fit);
     following.at = at_;
     following.fit = choose();
-    following.pushed = complete_ || furthest_ + 2 < count() ? kWhateverComes : pushed_;
+    following.pushed = furthest_ + 2 < count() ? kWhateverComes : pushed_;
     ++links_;
   }
   return link(next).fit.error <= 1;
@@ -268,7 +267,6 @@ const Segmenter::Fit& Segmenter::choose_safe() {
   for (int i = 0; i < kProofs; ++i) {
     const Fit f = link(0).fit;
     if (f.error <= 1 && leads_on()) return link(0).fit;
-    links_ = 1;
     if (f.units < 4) break;
     // A dead end: a shorter segment has more to choose from.
     begin_chain(fit(f.units * 5 / 8, Goal::kRunOn));

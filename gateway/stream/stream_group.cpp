@@ -66,7 +66,7 @@ void StreamGroup::begin_run() {
     node.stream.push_start();
     node.end_pushed = false;
   }
-  released_ = begun_ = false;
+  released_ = false;
   start_units_ = 0;
   state_ = State::kFilling;
 }
@@ -94,7 +94,7 @@ void StreamGroup::drain(Node& node) {
     if (!segment) break;
     node.stream.push(*segment);
   }
-  if (node.segmenter.ended() && !node.end_pushed && node.stream.has_room()) {
+  if (node.segmenter.ended() && !node.end_pushed) {  // found with room for it
     node.stream.push_end();
     node.end_pushed = true;
   }
@@ -126,14 +126,13 @@ Result<void, StreamError> StreamGroup::pump() {
 Result<void, StreamError> StreamGroup::feed(const JointSpan& span) {
   for (Node& node : nodes_) {
     node.segmenter.push(span);
-    if (!begun_ && node.segmenter.start_offset_counts() > options_.start_offset_counts)
+    if (node.segmenter.start_offset_counts() > options_.start_offset_counts)
       return Error<StreamError>({.kind = StreamError::Kind::kStartMismatch,
                                  .node_id = node.stream.node_id(),
                                  .line = span.line,
                                  .amount = node.segmenter.start_offset_counts()});
     drain(node);
   }
-  begun_ = true;
   return {};
 }
 
@@ -146,7 +145,8 @@ void StreamGroup::release(PathTime start) {
 }
 
 void StreamGroup::cancel() {
-  if (state_ == State::kRunning) take_up_.abandon(run_time(last_tau_));
+  // Of a run that was not released no turn has come.
+  if (state_ != State::kDone) take_up_.abandon(state_ == State::kRunning ? run_time(last_tau_) : 0.0);
   state_ = State::kIdle;
   sampler_.restart();
 }
@@ -208,7 +208,7 @@ PathTime StreamGroup::confirmed(PathTime tau) const {
 }
 
 double StreamGroup::allowed_rate(PathTime tau) const {
-  if (state_ != State::kRunning || nodes_.empty()) return 1;
+  if (state_ != State::kRunning) return 1;
   std::array<const NodeStream*, kMostNodes> streams{};
   for (std::size_t i = 0; i < nodes_.size(); ++i) streams[i] = &nodes_[i].stream;
   return budget_.allowed_rate({streams.data(), nodes_.size()}, tau, complete());
@@ -221,7 +221,6 @@ PathTime StreamGroup::fitted_until() const {
     least = std::min(least, node.segmenter.knot_units());
     most = std::max(most, node.segmenter.knot_units());
   }
-  if (nodes_.empty()) least = 0;
   return PathTime{(start_units_ + (complete() ? most : least)) * kPathTicksPerUnit};
 }
 

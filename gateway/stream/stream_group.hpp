@@ -124,7 +124,7 @@ class StreamGroup {
   std::vector<Node> nodes_;
   State state_ = State::kIdle;
   PathTime last_tau_{0};
-  bool released_ = false, begun_ = false;
+  bool released_ = false;
   std::int64_t start_units_ = 0;
 };
 

@@ -5,54 +5,12 @@
 #include <cmath>
 #include <random>
 
+#include "gateway/stream/tests/take_up_plans.hpp"
+
 namespace kinebus {
 namespace {
 
-constexpr double kGap = 0.1, kAccel = 1000;
-
-BacklashTakeUp take_up() {
-  BacklashTakeUp::Joints joints{};
-  joints[0] = {.gap = kGap, .accel_per_s2 = kAccel, .hysteresis = 1e-3, .home_side = 1};
-  return BacklashTakeUp(joints);
-}
-
-/// A cubic that goes from `a` to `b` at rest at both ends; joint 1 goes along without a gap.
-JointSpan move(double start_s, double duration_s, double a, double b, bool last) {
-  JointSpan s;
-  s.start_s = start_s;
-  s.duration_s = duration_s;
-  const double k = (b - a) / (duration_s * duration_s);
-  s.coefficients[0] = {a, 0, 3 * k, -2 * k / duration_s};
-  s.coefficients[1] = s.coefficients[0];
-  s.last = last;
-  return s;
-}
-
-std::vector<JointSpan> run(BacklashTakeUp& t, const std::vector<JointSpan>& spans) {
-  std::vector<JointSpan> out;
-  t.restart();
-  for (const JointSpan& s : spans) {
-    EXPECT_TRUE(t.wants_span());
-    t.push(s);
-    while (auto piece = t.next()) out.push_back(*piece);
-  }
-  return out;
-}
-
-void expect_smooth(const std::vector<JointSpan>& spans) {
-  for (std::size_t i = 0; i + 1 < spans.size(); ++i) {
-    const JointSpan &a = spans[i], &b = spans[i + 1];
-    EXPECT_NEAR(a.start_s + a.duration_s, b.start_s, 1e-12);
-    EXPECT_FALSE(a.last);
-    for (const int joint : {0, 1}) {
-      EXPECT_NEAR(a.position(joint, a.duration_s), b.position(joint, 0), 1e-8);
-      EXPECT_NEAR(a.velocity(joint, a.duration_s), b.velocity(joint, 0), 5e-3);
-    }
-  }
-  ASSERT_FALSE(spans.empty());
-  EXPECT_TRUE(spans.back().last);
-  EXPECT_NEAR(spans.back().velocity(0, spans.back().duration_s), 0, 1e-9);
-}
+using namespace take_up_plans;
 
 TEST(BacklashTakeUp, NoGapPassesSpansThrough) {
   BacklashTakeUp t{BacklashTakeUp::Joints{}};
@@ -290,22 +248,6 @@ TEST(BacklashTakeUp, ATurnBackBeforeTheTakeUpBeganCancelsIt) {
   const auto shorter = run(once, plan);
   EXPECT_NEAR(once.side(0), -1, 1e-12);
   EXPECT_NEAR(shorter.back().start_s + shorter.back().duration_s, 0.02, 0.003);
-}
-
-TEST(BacklashTakeUp, OldTurnsAreForgottenAndTheirSideIsNot) {
-  BacklashTakeUp t = take_up();
-  std::vector<JointSpan> plan;
-  for (int k = 0; k < 101; ++k)
-    plan.push_back(move(0.1 * k, 0.1, k % 2 == 0 ? 0 : 1, k % 2 == 0 ? 1 : 0, k == 100));
-  const auto out = run(t, plan);
-  expect_smooth(out);
-  EXPECT_EQ(t.side(0), 1);
-  for (int k = 75; k <= 100; ++k) EXPECT_EQ(t.side_at(0, 0.1 * k + 0.095), k % 2 == 0 ? 1 : -1) << k;
-  // Before those that are kept there is the side that the last forgotten one led to.
-  EXPECT_EQ(std::abs(t.side_at(0, 0)), 1);
-  std::vector<JointSpan> again{move(0, 0.2, 1, 0, true)};
-  const auto next = run(t, again);
-  EXPECT_NEAR(next.front().position(0, 0), 1 + kGap / 2, 1e-9) << "the side of the run before";
 }
 
 TEST(BacklashTakeUp, ARunThatWasLostInsideTheGapIsBroughtToItsNearerSide) {

@@ -217,4 +217,38 @@ std::vector<JointSpan> trapezoid_spans(double accel, double speed, double cruise
   return spans;
 }
 
+std::vector<JointSpan> jumpy_spans(std::uint32_t seed, double accel, int count, double shortest_s,
+                                   double longest_s) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> any(-1, 1);
+  std::vector<JointSpan> spans;
+  double t = 0;
+  std::array<double, 2> q{700, 640}, v{};
+  for (int k = 0; k < count; ++k) {
+    JointSpan span;
+    span.start_s = t;
+    span.duration_s = shortest_s * std::pow(longest_s / shortest_s, 0.5 + 0.5 * any(random));
+    span.line = static_cast<std::uint32_t>(k + 1);
+    const double h = span.duration_s;
+    for (std::size_t j = 0; j < 2; ++j) {
+      double a = accel * any(random), jerk = k % 3 == 0 ? (accel * any(random) - a) / h : 0;
+      if (k + 1 == count) {  // the last span comes to rest
+        span.duration_s = 0.1;
+        a = -v[j] / 0.1;
+        jerk = 0;
+      } else if (std::abs(v[j] + a * h) > 200) {
+        a = -std::copysign(a, v[j]);
+        jerk = 0;
+      }
+      span.coefficients[j] = {q[j], v[j], a / 2, jerk / 6};
+      q[j] = span.position(static_cast<int>(j), span.duration_s);
+      v[j] = span.velocity(static_cast<int>(j), span.duration_s);
+    }
+    t += span.duration_s;
+    spans.push_back(span);
+  }
+  spans.back().last = true;
+  return spans;
+}
+
 }  // namespace kinebus::testing

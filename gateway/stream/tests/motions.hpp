@@ -42,4 +42,9 @@ std::vector<Phase> smooth_curve(std::uint32_t seed, const SmoothCurve& shape);
 /// One joint along a straight axis: accelerate, cruise, decelerate.
 std::vector<JointSpan> trapezoid_spans(double accel, double speed, double cruise_s);
 
+/// Two joints, with random lengths and accelerations: jumps everywhere, some spans far shorter than a knot
+/// can follow; the last one comes to rest.
+std::vector<JointSpan> jumpy_spans(std::uint32_t seed, double accel, int count, double shortest_s = 0.0001,
+                                   double longest_s = 0.05);
+
 }  // namespace kinebus::testing

@@ -238,5 +238,34 @@ TEST(NodeStream, CountsWhatIsNotSentUntilAnyTime) {
   }
 }
 
+TEST(NodeStream, WhereTheAxesStandIsKnownWhileTheNextRunIsMade) {
+  NodeStream stream(1);
+  stream.reset({}, 0, 120);
+  push_run(stream, 4, 100);
+  stream.release(1000);
+  (void)send_all(stream, path_units(1000));
+  const auto rest = stream.final_state();
+  ASSERT_TRUE(stream.on_status({}, status(6, 120, 1200), path_units(1200)));
+  stream.push_start();
+  push_segments(stream, 2, 100);
+  for (const std::int64_t now : {1399, 1400, 1500, 9000}) {
+    ASSERT_TRUE(stream.on_status({}, status(6, 120, now), path_units(now)));
+    ASSERT_TRUE(stream.state_at(path_units(now))) << now;
+    if (now < 1400) continue;
+    EXPECT_EQ(*stream.state_at(path_units(now)), rest) << now;
+  }
+}
+
+/// What the node did before is not known here.
+TEST(NodeStream, ACheckOfWhatWasBeforeAResetIsNoneOfItsRecords) {
+  NodeStream stream(1);
+  stream.reset({AxisState{to_fixed(12), 0}, AxisState{}}, 7, 120);
+  for (const std::uint8_t check : {std::uint8_t{0x00}, std::uint8_t{0x5A}, std::uint8_t{0xFF}}) {
+    StreamStatus told = status(7, 120, 5000);
+    told.tail_check = check;
+    EXPECT_TRUE(stream.on_status({}, told, path_units(5000)));
+  }
+}
+
 }  // namespace
 }  // namespace kinebus::testing_states

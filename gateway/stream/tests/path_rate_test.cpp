@@ -59,6 +59,15 @@ TEST(PathRate, LatchedStopIgnoresRatesUntilCleared) {
   EXPECT_FALSE(rate.at_rest(4s));
 }
 
+TEST(PathRate, WhatWasAskedForBeforeAClearMayBeAskedForAgain) {
+  PathRate rate;
+  rate.request(1, 2ms, 1s);
+  rate.clear(1s + 1ms);
+  EXPECT_EQ(rate.target(), 0);
+  rate.request(1, 2ms, 1s + 2ms);
+  EXPECT_EQ(rate.counters().commands, 3u);
+}
+
 TEST(PathRate, StopOvertakesARateThatIsStillAhead) {
   PathRate rate;
   rate.request(1, 2ms, 1s);

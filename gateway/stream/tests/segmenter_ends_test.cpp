@@ -94,6 +94,20 @@ TEST(Segmenter, ARunThatWasLeftInItsMidstLeavesNothingToTheNext) {
   }
 }
 
+TEST(Segmenter, ARunUnderALimitOfJerkLeavesNothingToTheNext) {
+  const auto kinematics = m1();
+  const auto eased = sample(*kinematics, eased_lines(*kinematics, 3, {.lines = 200}, 100'000));
+  const auto plain = sample(*kinematics, printed_lines(3, {.lines = 100}));
+  ASSERT_GT(eased.size(), 2 * Segmenter::kCapacity);
+  Segmenter used(one_axis()), fresh(one_axis());
+  (void)follow(used, eased, standing(used.node(), eased[0]));
+  const std::uint64_t tries = used.counters().candidates;
+  const Followed again = follow(used, plain, standing(used.node(), plain[0]));
+  const Followed first = follow(fresh, plain, standing(fresh.node(), plain[0]));
+  EXPECT_EQ(again.segments, first.segments);
+  EXPECT_EQ(used.counters().candidates - tries, fresh.counters().candidates);
+}
+
 TEST(Segmenter, AnAxisWithoutALimitIsStreamedLikeAnyOther) {
   NodeAxes node = one_axis();
   node.axes[0].acceleration_limit = 0;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "gateway/stream/tests/m1_axes.hpp"
 #include "gateway/stream/tests/motions.hpp"
@@ -168,41 +167,6 @@ TEST(Segmenter, CurvesInFiveAxesStayWithinHalfACount) {
     }
 }
 
-/// Spans with random lengths and accelerations: jumps everywhere, some spans far shorter than a knot can
-/// follow.
-std::vector<JointSpan> jumpy_spans(std::uint32_t seed, double accel, int count) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> any(-1, 1);
-  std::vector<JointSpan> spans;
-  double t = 0;
-  std::array<double, 2> q{700, 640}, v{};
-  for (int k = 0; k < count; ++k) {
-    JointSpan span;
-    span.start_s = t;
-    span.duration_s = 0.0001 * std::pow(500.0, 0.5 + 0.5 * any(random));
-    span.line = static_cast<std::uint32_t>(k + 1);
-    const double h = span.duration_s;
-    for (std::size_t j = 0; j < 2; ++j) {
-      double a = accel * any(random), jerk = k % 3 == 0 ? (accel * any(random) - a) / h : 0;
-      if (k + 1 == count) {  // the last span comes to rest
-        span.duration_s = 0.1;
-        a = -v[j] / 0.1;
-        jerk = 0;
-      } else if (std::abs(v[j] + a * h) > 200) {
-        a = -std::copysign(a, v[j]);
-        jerk = 0;
-      }
-      span.coefficients[j] = {q[j], v[j], a / 2, jerk / 6};
-      q[j] = span.position(static_cast<int>(j), span.duration_s);
-      v[j] = span.velocity(static_cast<int>(j), span.duration_s);
-    }
-    t += span.duration_s;
-    spans.push_back(span);
-  }
-  spans.back().last = true;
-  return spans;
-}
-
 TEST(Segmenter, FollowsRandomJumpsOfAcceleration) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     const auto spans = jumpy_spans(seed, 4000, 400);
@@ -277,8 +241,10 @@ TEST(Segmenter, AnUnusedAxisNeverMoves) {
   NodeAxes node;
   node.axes[1].joint = 1;
   Segmenter segmenter(node);
-  const auto from = standing_at(node, spans.front());
+  auto from = standing_at(node, spans.front());
+  from[0].position = to_fixed(12'345.25);
   for (const FittedSegment& s : fit_all(segmenter, spans, from)) EXPECT_EQ(s.acceleration[0], 0);
+  EXPECT_EQ(segmenter.start_offset_counts(), 0);
   EXPECT_EQ(segmenter.states()[0], from[0]);
 }
 

@@ -3,88 +3,14 @@
 
 #include <cmath>
 
-#include "gateway/stream/stream_group.hpp"
-#include "gateway/stream/tests/m1_axes.hpp"
-#include "gateway/stream/tests/model_node.hpp"
+#include "gateway/stream/tests/model_machine.hpp"
 #include "gateway/stream/tests/motions.hpp"
 
 namespace kinebus::testing {
 namespace {
 
-PathTime path_ms(double ms) {
-  return PathTime{static_cast<std::int64_t>(16'000 * ms)};
-}
-
-/// Three model nodes that take what is sent at once.
-class States {
- public:
-  explicit States(std::vector<NodeAxes> of = m1_axes(), const StreamGroup::Options& options = {})
-      : axes(std::move(of)), kinematics(m1()), group(*kinematics, axes, options) {}
-
-  void stand_at(const Phase& first) {
-    JointVector joints{};
-    ASSERT_TRUE(kinematics->inverse(first.piece.frame, first.piece.evaluate(first.s0).x, joints));
-    nodes.clear();
-    for (const NodeAxes& node : axes) {
-      std::array<AxisState, kAxesPerNode> states{};
-      for (std::size_t i = 0; i < states.size(); ++i)
-        if (node.axes[i].joint >= 0)
-          states[i].position =
-              to_fixed(node.axes[i].to_counts(joints[static_cast<std::size_t>(node.axes[i].joint)]));
-      nodes.emplace_back(node.node_id, states);
-      group.set_state(node.node_id, states, nodes.back().status());
-    }
-  }
-  void fill(const std::vector<Phase>& phases) {
-    while (next < phases.size() && group.wants_phases(tau)) {
-      const auto ok = group.push(phases[next++]);
-      ASSERT_TRUE(ok) << to_string(ok.error());
-    }
-  }
-  void send(int most = 1'000'000) {
-    for (; most > 0; --most) {
-      const auto frame = group.next_frame(now, tau);
-      if (!frame) return;
-      for (ModelNode& node : nodes) node.on_frame(*frame);
-    }
-  }
-  void tell() {
-    for (ModelNode& node : nodes) {
-      node.advance_to(tau);
-      const auto ok = group.on_status(now, node.id(), node.status(), tau);
-      ASSERT_TRUE(ok) << to_string(ok.error());
-    }
-  }
-  void pass(double ms) {
-    tau += path_ms(ms);
-    now += std::chrono::milliseconds{10};
-  }
-  void run(const std::vector<Phase>& phases) {
-    next = 0;
-    group.begin_run();
-    fill(phases);
-    group.release(tau + path_ms(100));
-    for (int guard = 0; guard < 100'000 && !group.run_done(tau); ++guard) {
-      fill(phases);
-      send();
-      pass(10);
-      tell();
-    }
-    ASSERT_TRUE(group.run_done(tau));
-    for (const ModelNode& node : nodes) EXPECT_EQ(node.complaint, "");
-  }
-
-  std::vector<NodeAxes> axes;
-  std::unique_ptr<Kinematics> kinematics;
-  StreamGroup group;
-  std::vector<ModelNode> nodes;
-  std::size_t next = 0;
-  PathTime tau{0};
-  BusTime now{0};
-};
-
 TEST(StreamGroup, GoesThroughItsStatesAndTakesPhasesInTwoOfThem) {
-  States m;
+  ModelMachine m;
   const auto phases = printed_lines(3, {.lines = 20});
   using State = StreamGroup::State;
   EXPECT_EQ(m.group.state(), State::kIdle);
@@ -136,7 +62,7 @@ TEST(StreamGroup, GoesThroughItsStatesAndTakesPhasesInTwoOfThem) {
 
 TEST(StreamGroup, IsPrimedWhenEachNodeHoldsTheReserveOrIsFullOrHasAll) {
   const auto phases = printed_lines(3, {.lines = 60});
-  States m;
+  ModelMachine m;
   m.stand_at(phases.front());
   m.group.begin_run();
   m.fill(phases);
@@ -158,7 +84,7 @@ TEST(StreamGroup, IsPrimedWhenEachNodeHoldsTheReserveOrIsFullOrHasAll) {
   EXPECT_FALSE(m.group.primed(path_ms(100 + 150))) << "as much ahead of now, too";
 
   // A short queue is full before.
-  States full;
+  ModelMachine full;
   full.stand_at(phases.front());
   for (ModelNode& node : full.nodes) {
     node.capacity = 3;
@@ -173,7 +99,7 @@ TEST(StreamGroup, IsPrimedWhenEachNodeHoldsTheReserveOrIsFullOrHasAll) {
   EXPECT_TRUE(full.group.primed(full.tau));
 
   // A short run is with them as a whole.
-  States brief;
+  ModelMachine brief;
   std::vector<Phase> one(1, phases.front());
   one[0].v0 = one[0].a = 0;
   one[0].duration_s = 0.02;
@@ -195,7 +121,7 @@ TEST(StreamGroup, IsPrimedWhenEachNodeHoldsTheReserveOrIsFullOrHasAll) {
 
 TEST(StreamGroup, ServesFirstWhoHasTheLeast) {
   const auto phases = printed_lines(3, {.lines = 60});
-  States m;
+  ModelMachine m;
   m.stand_at(phases.front());
   m.group.begin_run();
   m.fill(phases);
@@ -214,7 +140,7 @@ TEST(StreamGroup, ServesFirstWhoHasTheLeast) {
 }
 
 TEST(StreamGroup, ANodeThatIsNotItsOwnSaysNothing) {
-  States m;
+  ModelMachine m;
   StreamStatus status;
   status.flags = StreamStatus::kUnderrun;
   EXPECT_TRUE(m.group.on_status(m.now, 77, status, m.tau));
@@ -225,7 +151,7 @@ TEST(StreamGroup, ANodeThatIsNotItsOwnSaysNothing) {
 
 TEST(StreamGroup, PassesOnWhatANodeFoundAndWhatThePathCannotDo) {
   const auto phases = printed_lines(3, {.lines = 60});
-  States m;
+  ModelMachine m;
   m.stand_at(phases.front());
   m.group.begin_run();
   m.fill(phases);
@@ -238,7 +164,7 @@ TEST(StreamGroup, PassesOnWhatANodeFoundAndWhatThePathCannotDo) {
   EXPECT_EQ(under.error().kind, StreamError::Kind::kUnderrun);
   EXPECT_EQ(under.error().node_id, 2);
 
-  States far;
+  ModelMachine far;
   Phase away;
   away.line = 12;
   away.piece.coefficients[kX] = {0, 1, 0, 0};
@@ -257,7 +183,7 @@ TEST(StreamGroup, PassesOnWhatANodeFoundAndWhatThePathCannotDo) {
 
 TEST(StreamGroup, ConfirmedIsWhatTheSlowestNodeHasPassed) {
   const auto phases = printed_lines(3, {.lines = 60});
-  States m;
+  ModelMachine m;
   EXPECT_EQ(m.group.confirmed(path_ms(5)), path_ms(5)) << "nobody has said anything";
   m.stand_at(phases.front());
   m.group.begin_run();
@@ -276,7 +202,7 @@ TEST(StreamGroup, ConfirmedIsWhatTheSlowestNodeHasPassed) {
 
 TEST(StreamGroup, AfterALostRunANewOneBeginsFromWhereTheAxesAre) {
   const auto phases = printed_lines(3, {.lines = 60});
-  States m;
+  ModelMachine m;
   m.stand_at(phases.front());
   m.group.begin_run();
   m.fill(phases);
@@ -313,7 +239,7 @@ TEST(StreamGroup, TheGapsOfItsAxesAreTakenUp) {
       axis.take_up_per_s2 = 400 / axis.slope() * 10;
     }
   axes[1].axes[1].joint = -1;
-  States m(axes);
+  ModelMachine m(axes);
   const auto phases = printed_lines(5, {.lines = 40});
   m.stand_at(phases.front());
   for (int j = 0; j < 6; ++j) EXPECT_EQ(m.group.side(j), 1) << j;
@@ -355,7 +281,7 @@ TEST(StreamGroup, ALostRunLeavesAMotorInsideItsGap) {
   auto axes = m1_axes();
   axes[0].axes[0].gap = 1;
   axes[0].axes[0].take_up_per_s2 = 4;  // 1 s
-  States m(axes);
+  ModelMachine m(axes);
   const auto phases = printed_lines(5, {.lines = 60});
   m.stand_at(phases.front());
   m.group.begin_run();
