@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -73,6 +74,17 @@ class ModelMachine {
       const auto ok = group.on_status(now, node.id(), node.status(), tau);
       ASSERT_TRUE(ok) << to_string(ok.error());
     }
+  }
+  /// Where the joints are to be now; nullopt: the run has not begun, or is over.
+  std::optional<JointVector> planned_joints(const std::vector<Phase>& phases) const {
+    const double t = to_seconds(tau) - to_seconds(group.run_start());
+    double start = 0;
+    std::size_t k = 0;
+    while (k < phases.size() && start + phases[k].duration_s < t) start += phases[k++].duration_s;
+    JointVector joints{};
+    if (k == phases.size() || t < 0) return std::nullopt;
+    EXPECT_TRUE(kinematics->inverse(phases[k].piece.frame, phases[k].at(t - start).x, joints));
+    return joints;
   }
   void pass(double ms) {
     tau += path_ms(ms);
