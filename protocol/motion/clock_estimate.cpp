@@ -294,9 +294,14 @@ void ClockEstimate::fit() {
   for (int i = std::max(low_turn - 1, 0); i <= low_turn; ++i) consider(low_slope(i));
   for (int i = std::max(high_turn - 1, 0); i <= high_turn; ++i) consider(high_slope(i));
   // Which strip is the thinnest, one sample more may change from one slope to another. Crystals do not jump:
-  // where the window tells nothing new but moves on, the slope follows slowly.
-  const bool moves_on = count_ == window_ || at(count_ - 1).bus - at(0).bus > kHorizonNs - kLongWindowNs;
-  slope_ = moves_on ? slope_before + (best_slope - slope_before) / kSlopeFollows : best_slope;
+  // where the window moves on and the strip before is as good, the slope follows slowly.
+  slope_ = best_slope;
+  if (count_ == window_ || at(count_ - 1).bus - at(0).bus > kHorizonNs - kLongWindowNs) {
+    const std::int64_t slope = slope_before + (best_slope - slope_before) / kSlopeFollows;
+    const std::int64_t width =
+        support(high, high_size, false, slope, high_near) - support(low, low_size, true, slope, low_near);
+    if (width - best_width <= 10 * best_width / count_ + kLeastErrorNs) slope_ = slope;
+  }
   offset_ = support(low, low_size, true, slope_, low_near);
   spread_ = std::max<std::int64_t>(best_width, 0);
 }
