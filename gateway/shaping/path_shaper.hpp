@@ -53,7 +53,7 @@ class PathShaper {
   void set_pause(double seconds) { pause_s_ = seconds; }
 
   /// Of the phases pushed from here on. Where it changes, no filament may be flowing: A is continuous then.
-  /// Along the tip it rests there for the pause.
+  /// It rests there for the pause.
   void set_advance(const AdvanceModel& model) { advance_ = model; }
   const AdvanceWindow& advance_window() const { return window_; }
   /// The model that was set for what begins with the phase given out last, or went on with it.
